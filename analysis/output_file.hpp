@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Results appear whole or not at all: written beside, then renamed.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace bedscope::analysis {
+
+/// Writes a file through "<path>.part" and a rename; makes the folder where it is missing.
+/// Throws FileError naming path and reason; nothing half-written stays.
+void write_file(const std::filesystem::path& path, std::string_view content);
+
+/// A name beside `path` to write to (for libraries that write files themselves), renamed by commit();
+/// removed again where commit() was not reached.
+class OutputFile {
+ public:
+  explicit OutputFile(std::filesystem::path path);
+  ~OutputFile();
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+
+  const std::filesystem::path& part() const { return part_; }
+  /// Throws FileError where the file cannot be put in its place.
+  void commit();
+
+ private:
+  std::filesystem::path path_, part_;
+  bool done_ = false;
+};
+
+}  // namespace bedscope::analysis

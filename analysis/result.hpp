@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the analysis of one run gives: plain data, written by tables, results_file and summary,
+// drawn by report, judged by validation. Undefined values are NaN.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "analysis/grid.hpp"
+
+namespace bedscope::analysis {
+
+/// A mean and the half-width of its 95 % confidence interval, in the unit of the quantity.
+struct Estimate {
+  double value = std::numeric_limits<double>::quiet_NaN();
+  double ci95 = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// A time-averaged curve: holdup [-], solids velocity along `up` [m/s], mass flux [kg/m2/s] at
+/// `coordinate` (cell centres [m]); all vectors of one length.
+struct Profile {
+  std::vector<double> coordinate;
+  std::vector<Estimate> holdup, velocity_z, mass_flux_z;
+};
+
+/// Time-averaged fields on the grid, one value a cell, lateral fastest.
+/// Velocities are <phi v>/<phi> (NaN where no solids were seen), mass fluxes rho <phi v> (NaN
+/// throughout where no density is known).
+struct MeanFields {
+  std::vector<double> holdup, velocity_x, velocity_z, mass_flux_x, mass_flux_z;
+};
+
+/// Everything averaged over the window for one type: "all", a LIGGGHTS type, or a rule's name.
+struct SpeciesResult {
+  std::string type;
+  Profile axial;
+  std::vector<Profile> lateral;  ///< one for each of RunResult::heights
+  MeanFields fields;
+  std::vector<double> temperature_pdf;  ///< [-], per bin; empty without a temperature range
+};
+
+/// A row for each snapshot of the dump, inside and outside the window.
+struct InventorySample {
+  double time = 0;  ///< [s]
+  std::string type;
+  std::int64_t particles = 0;
+  double solids_mass = 0;  ///< [kg]
+  double holdup = 0;       ///< of the whole domain [-]
+  double mean_height = 0;  ///< of the centre of mass [m]
+};
+
+struct TemperatureSample {
+  double time = 0;
+  std::string type;
+  double mean = 0, std = 0, min = 0, max = 0;  ///< over particles [K]; std divides by N
+};
+
+struct OccurrenceSample {
+  double time = 0;           ///< [s]
+  int clusters = 0;
+  double area_fraction = 0;  ///< of the domain's front area [-]
+};
+
+struct Point {
+  double x = 0, z = 0;  ///< lateral, up [m]
+};
+
+/// A cluster in one snapshot (Carlos Varas et al. 2016 in its three thresholds).
+struct Cluster {
+  std::size_t snapshot = 0;  ///< index into RunResult::occurrence
+  double time = 0;           ///< [s]
+  int cluster = 0;           ///< number within the snapshot, from 1, from the bottom upwards
+  int track = 0;             ///< the same number through time, from 1
+  Point centre;              ///< centroid of its area [m]
+  double area = 0;           ///< cells x cell area [m2]
+  double holdup = 0, holdup_max = 0;
+  double velocity_x = 0, velocity_z = 0;              ///< of its solids, mass-weighted [m/s]
+  double track_velocity_x = 0, track_velocity_z = 0;  ///< of its centroid [m/s]; NaN at first sight
+  double major = 0, minor = 0;                        ///< full axes of the ellipse of equal second moments [m]
+  double angle = 0;                                   ///< of the major axis from lateral [rad], (-pi/2, pi/2]
+  std::vector<int> parents;  ///< tracks of the previous snapshot that merged into it or that it split off
+  std::vector<std::vector<Point>> contours;  ///< closed polylines along cell faces [m]
+};
+
+/// One snapshot kept whole for the strip of snapshots.
+struct Frame {
+  std::size_t snapshot = 0;  ///< index into RunResult::occurrence
+  double time = 0;           ///< [s]
+  std::vector<double> holdup;  ///< depth-averaged, cells[lateral] x cells[up], lateral fastest
+};
+
+/// The averaging window.
+struct Window {
+  double from = 0, to = 0;   ///< times of its first and last snapshot [s]
+  std::size_t first = 0;     ///< index of its first snapshot
+  std::size_t snapshots = 0;
+  bool automatic = false;    ///< chosen by `average = "auto"`
+  bool steady = true;        ///< false where `auto` found no steady part
+};
+
+/// The thresholds that found the clusters.
+struct ClusterThresholds {
+  double threshold = 0.2;   ///< holdup everywhere above [-]
+  double core = 0.4;        ///< holdup somewhere above [-]
+  double min_area = 60e-6;  ///< [m2]
+};
+
+struct RunResult {
+  std::string label;
+  Grid grid;
+  std::string mapping = "exact";
+  bool domain_assumed = false;  ///< taken from the dump's box: say so beside every holdup
+  bool time_known = true;       ///< false: `time` counts steps, and is written as nan
+  bool density_known = true;
+
+  Window window;
+  std::vector<std::string> types;      ///< "all" first
+  std::vector<SpeciesResult> species;  ///< in the order of `types`
+  std::vector<double> heights;         ///< of the lateral profiles [m]
+  double band = 0;                     ///< full height of their band [m]
+
+  std::vector<InventorySample> inventory;
+  std::vector<TemperatureSample> temperature;
+  double temperature_from = 0, temperature_to = 0;  ///< made 0 and 1 in the PDF [K]
+  ClusterThresholds thresholds;
+  std::vector<OccurrenceSample> occurrence;  ///< every snapshot
+  std::vector<Cluster> clusters;             ///< inside the window, by snapshot
+  std::vector<Frame> frames;                 ///< a few snapshots of the window, evenly spread
+
+  Estimate mean_holdup;           ///< of the domain, over the window [-]
+  Estimate inventory_mass;        ///< over the window [kg]
+  Estimate mean_occurrence;       ///< clusters a snapshot
+  Estimate bed_voidage;           ///< 1 - solids / bed volume, the bed being twice the mean height [-]
+  double independent_samples = 0; ///< of the mean holdup
+  double outside_fraction = 0;    ///< share of the solids volume outside the domain, in the window
+  std::uint64_t bytes_read = 0;
+  double seconds = 0;
+  std::vector<std::string> inputs;    ///< files read, for the hash in the summary
+  std::vector<std::string> problems;  ///< one line each, for people
+};
+
+}  // namespace bedscope::analysis

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The three kinds of error that a user can meet, told apart by whose turn it is to act.
+// Texts: lower case, no full stop, where: what was expected, what was found.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace bedscope {
+
+/// Base of all errors that end in exit code 2 and one line on stderr.
+class Error : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The disk: missing file, no permission, no space.
+class FileError : public Error {
+ public:
+  template <class... T>
+  explicit FileError(fmt::format_string<T...> text, T&&... values)
+      : Error(fmt::format(text, std::forward<T>(values)...)) {}
+};
+
+/// The content of a file. The text begins with path and place: "dump.1000: line 7: ...".
+class FormatError : public Error {
+ public:
+  template <class... T>
+  explicit FormatError(fmt::format_string<T...> text, T&&... values)
+      : Error(fmt::format(text, std::forward<T>(values)...)) {}
+};
+
+/// What the user asked for: study file, options, a column that no dump has.
+class InputError : public Error {
+ public:
+  template <class... T>
+  explicit InputError(fmt::format_string<T...> text, T&&... values)
+      : Error(fmt::format(text, std::forward<T>(values)...)) {}
+};
+
+}  // namespace bedscope

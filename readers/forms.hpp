@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One row for each form of particle dump on disk. To add one: readers/<form>.cpp with a constant
+// Form, its name in forms.cpp, the file in readers/CMakeLists.txt, a test in tests/readers.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "readers/snapshot.hpp"
+
+namespace bedscope::readers {
+
+/// One snapshot inside a file, found without parsing its rows.
+struct Located {
+  std::int64_t step = no_step;  ///< no_step where the form stores none (VTK: the file's name tells)
+  double time = unknown;        ///< [s], where the form stores it
+  std::int64_t particles = 0;   ///< as declared
+  std::uint64_t offset = 0;     ///< [bytes] of the decompressed file
+  std::uint64_t bytes = 0;      ///< length of the snapshot, 0: to the end of the file
+  std::uint64_t line = 1;       ///< of its first line, 0 where unknown
+  Box box;
+  std::shared_ptr<const std::vector<std::string>> columns;  ///< names as on disk
+};
+
+/// What scan() found in one file.
+struct FileScan {
+  std::vector<Located> snapshots;     ///< in the order of the file; only complete ones if `thorough`
+  std::string cut;                    ///< why the last snapshot is incomplete; empty if it is whole
+  std::vector<std::string> problems;  ///< things worth a warning, with their place
+  std::string not_particles;          ///< what it is instead ("a triangle mesh"); empty for particles
+};
+
+/// Buffers that a reader re-uses from snapshot to snapshot; one for each thread.
+struct Scratch {
+  std::vector<char> bytes;
+  std::vector<std::vector<double>> raw;
+  std::vector<char> text;
+};
+
+/// One form of particle dump. All functions are thread-safe and keep no file open.
+struct Form {
+  std::string_view name;         ///< as `bedscope info` prints it: "dump-text", "vtk-legacy"
+  std::string_view description;  ///< one line for people
+  std::string_view reference;    ///< where the form is documented
+
+  /// Is it this form? `head` holds the first bytes of the (decompressed) file, at most 4096.
+  bool (*matches)(std::string_view head);
+
+  /// Finds the snapshots of a file. `thorough` also makes sure that the last one is complete;
+  /// without it only what the headers say is looked at.
+  /// Throws FileError, or FormatError where not one snapshot is complete.
+  FileScan (*scan)(const std::string& path, bool thorough);
+
+  /// Reads the columns asked for, and no others, of the snapshot that scan() located.
+  /// Throws FormatError (path, place, expected, found) on anything that is not as it should be.
+  void (*read)(const std::string& path, const Located& where, const Request& request,
+               Snapshot& out, Scratch& scratch);
+};
+
+/// Every form that we read, in alphabetic order.
+std::span<const Form* const> forms();
+
+/// The form of a file, by its content. Throws FileError, or FormatError naming what the file is
+/// where that can be told (git-lfs pointer, restart file, dump local ...).
+const Form& identify(const std::string& path);
+
+}  // namespace bedscope::readers
