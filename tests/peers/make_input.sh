@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Writes the input of the speed comparisons with LIGGGHTS itself (a few minutes of one core, 0.9 GB):
+# Writes the input of the speed comparisons with LIGGGHTS itself (two minutes of one core, 0.9 GB):
 #   FOLDER/text        50 text dumps of 50,000 particles, 12 columns
 #   FOLDER/ascii       the same snapshots as legacy VTK ASCII
 #   FOLDER/binary      the same snapshots as legacy VTK binary
@@ -8,6 +8,7 @@
 # Usage: make_input.sh FOLDER
 set -euo pipefail
 [ $# -eq 1 ] || { echo "usage: make_input.sh FOLDER" >&2; exit 2; }
+command -v liggghts > /dev/null || { echo "make_input.sh: needs Debian's package liggghts" >&2; exit 2; }
 here=$(cd "$(dirname "$0")" && pwd)
 mkdir -p "$1"
 folder=$(cd "$1" && pwd)

@@ -18,11 +18,11 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 PATTERN = {"text": "dump*.liggghts_run", "ascii": "bed_*.vtk", "binary": "bed_*.vtk", "binary500": "bed_*.vtk"}
 
 
-def run(command, **options):
+def run(command):
     """(wall, CPU) seconds of a whole process; ends everything where it fails."""
     start = time.perf_counter()
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, **options)
-    output = process.stdout.read()
+    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    output = process.stderr.read()
     _, status, used = os.wait4(process.pid, 0)
     wall = time.perf_counter() - start
     if status != 0:

@@ -9,6 +9,8 @@
 # compiler, GNU time and Debian's python3-vtk9, python3-numpy, python3-scipy.
 set -euo pipefail
 [ $# -ge 2 ] || { echo "usage: run.sh INPUT PROGRAM [ROUNDS]" >&2; exit 2; }
+[ -x /usr/bin/time ] || { echo "run.sh: needs Debian's package time" >&2; exit 2; }
+[ "$2" = - ] || [ -x "$2" ] || { echo "run.sh: $2 is not a program" >&2; exit 2; }
 here=$(cd "$(dirname "$0")" && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
