@@ -38,7 +38,6 @@ struct FileScan {
 /// Buffers that a reader re-uses from snapshot to snapshot; one for each thread.
 struct Scratch {
   std::vector<char> bytes;
-  std::vector<char> decoded;
   std::vector<std::vector<double>> raw;  ///< parsed columns, before finish_columns
   std::vector<std::string> names;  ///< columns of the snapshot before: a guess at the next one's
 };

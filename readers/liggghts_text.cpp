@@ -101,8 +101,10 @@ class HeaderReader {
 
   std::string require_line(const char* expected) {
     const auto line = window_.line();
+    if (!line)
+      throw CutError("{}: line {}: expected {}, found end of file", path_,
+                     line_at(path_, header_.offset) + header_.lines - 1, expected);
     ++header_.lines;
-    if (!line) fail("expected {}, found end of file", expected);
     return std::string(*line);
   }
 
@@ -154,7 +156,10 @@ class HeaderReader {
       box.min[axis] = values[0];
       box.max[axis] = values[1];
       if (triclinic) box.tilt[axis] = values[2];
-      if (axis < words.size()) box.periodic[axis] = words[axis].starts_with('p');
+      if (axis < words.size()) {
+        box.periodic[axis] = words[axis].starts_with('p');
+        box.shrink_wrapped |= words[axis].find_first_of("sm") != std::string_view::npos;
+      }
       if (!(box.max[axis] > box.min[axis]))
         fail("box has no width in {}: {} {}", "xyz"[axis], values[0], values[1]);
     }
@@ -336,9 +341,8 @@ FileScan scan(const std::string& path, bool thorough) {
     std::optional<Header> header;
     try {
       header = headers.next();
-    } catch (const FormatError& error) {
-      // A header that breaks off at the end of the file is a cut run; anything else is an error.
-      if (found.snapshots.empty() || window.ensure(1)) throw;
+    } catch (const CutError& error) {
+      if (found.snapshots.empty()) throw;
       found.cut = std::string(error.what()).substr(path.size() + 2);
       break;
     }
@@ -349,7 +353,7 @@ FileScan scan(const std::string& path, bool thorough) {
     if (!body.found_header) {
       const auto why = incompleteness(path, *header, body, source.cut());
       if (!why.empty()) {
-        if (found.snapshots.empty()) throw FormatError("{}: {}", path, why);
+        if (found.snapshots.empty()) throw CutError("{}: {}", path, why);
         found.cut = fmt::format("snapshot {}: {}", header->step, why);
         break;
       }
@@ -425,13 +429,14 @@ class RowReader {
 
   /// False where the row has another count of values, or one of them is not a number.
   bool read(const char* begin, const char* end, std::size_t row) const {
+    bool good = true;
     const auto words =
         for_each_word(begin, end, [&](std::int64_t column, const char* from, const char* to) {
-          if (column >= columns_) return false;
+          if (column >= columns_) return good = false;
           double* const target = targets_[static_cast<std::size_t>(column)];
-          return target == nullptr || parse_number(from, to, target[row]);
+          return target == nullptr || (good = parse_number(from, to, target[row]));
         });
-    return words == columns_;
+    return good && words == columns_;
   }
 
  private:

@@ -182,6 +182,12 @@ class Walk {
     throw FormatError("{}: {}: {}", path_, here(), fmt::format(text, std::forward<T>(values)...));
   }
 
+  template <class... T>
+  [[noreturn]] void fail_cut(fmt::format_string<T...> text, T&&... values) {
+    const auto end = binary_ ? fmt::format("offset {}", source_.likely_size()) : here();
+    throw CutError("{}: {}: {}", path_, end, fmt::format(text, std::forward<T>(values)...));
+  }
+
   /// A line number means nothing behind binary data.
   std::string here() const {
     if (binary_ && seen_data_) return fmt::format("offset {}", window_.offset());
@@ -195,7 +201,7 @@ class Walk {
 
   std::string_view need_line(const char* expected) {
     const auto line = next_line();
-    if (!line) fail("expected {}, found end of file", expected);
+    if (!line) fail_cut("expected {}, found end of file", expected);
     return *line;
   }
 
@@ -399,7 +405,7 @@ class Walk {
         metadata();
         line = keyword_line();
       }
-      if (!line) fail("FIELD of {} arrays: end of file after {}", arrays, i);
+      if (!line) fail_cut("FIELD of {} arrays: end of file after {}", arrays, i);
       std::string_view rest = *line;
       const std::string name = decode_name(next_word(rest));
       const auto components = count(next_word(rest), name.c_str());
@@ -432,14 +438,14 @@ class Walk {
   void skip_strings(const std::string& name, std::int64_t strings) {
     for (std::int64_t i = 0; i < strings; ++i) {
       if (!binary_) {
-        if (!next_line()) fail("array {}: end of file inside it", name);
+        if (!next_line()) fail_cut("array {}: end of file inside it", name);
         continue;
       }
       // VTK's binary strings: the length in 1, 2, 4 or 8 bytes, told by the first two bits.
-      if (!window_.ensure(1)) fail("array {}: end of file inside it", name);
+      if (!window_.ensure(1)) fail_cut("array {}: end of file inside it", name);
       const int form = static_cast<unsigned char>(*window_.begin()) >> 6;
       const std::size_t bytes = form == 3 ? 1 : form == 2 ? 2 : form == 1 ? 4 : 8;
-      if (!window_.ensure(bytes)) fail("array {}: end of file inside it", name);
+      if (!window_.ensure(bytes)) fail_cut("array {}: end of file inside it", name);
       std::uint64_t length = static_cast<unsigned char>(*window_.begin()) & 0x3f;
       for (std::size_t k = 1; k < bytes; ++k)
         length = length << 8 | static_cast<unsigned char>(window_.begin()[k]);
@@ -510,8 +516,10 @@ class Walk {
       return true;
     }
     line_start_ = window_.offset();
-    if (what == "POINTS") fail("POINTS {} declared, {} present (end of file)", tuples, seen / 3);
-    fail("end of file inside {}: {} values declared, {} present", what, tuples * components, seen);
+    if (what == "POINTS")
+      fail_cut("POINTS {} declared, {} present (end of file)", tuples, seen / 3);
+    fail_cut("end of file inside {}: {} values declared, {} present", what, tuples * components,
+             seen);
   }
 
   void skip_bytes(std::uint64_t bytes, const std::string& what) {
@@ -521,10 +529,10 @@ class Walk {
       return;
     }
     const auto target = window_.offset() + bytes;
-    if (target > source_.size_bound()) fail("end of file inside {}", what);
+    if (target > source_.size_bound()) fail_cut("end of file inside {}", what);
     source_.seek(target);
     window_.restart();
-    if (source_.position() < target) fail("end of file inside {}", what);
+    if (source_.position() < target) fail_cut("end of file inside {}", what);
   }
 
   void values(const Type& type, std::int64_t tuples, std::span<double* const> into,
@@ -545,7 +553,7 @@ class Walk {
       const std::size_t here = std::min(window_.size() / tuple_bytes, all - done);
       if (here == 0) {
         if (!window_.more())
-          fail("end of file inside {}: {} tuples declared, {} present", what, all, done);
+          fail_cut("end of file inside {}: {} tuples declared, {} present", what, all, done);
         continue;
       }
       for (std::size_t k = 0; k < into.size(); ++k)
@@ -619,10 +627,13 @@ class Walk {
 FileScan scan(const std::string& path, bool thorough) {
   std::vector<char> buffer;
   Walk walk(path, buffer);
-  if (thorough)
+  std::array<std::vector<double>, 3> positions;
+  if (thorough) {
+    for (int axis = 0; axis < 3; ++axis) walk.want(axis, positions[static_cast<std::size_t>(axis)]);
     walk.run();
-  else
+  } else {
     walk.run_to_points();
+  }
   FileScan found;
   if (thorough || walk.not_particles().starts_with("a "))
     found.not_particles = walk.not_particles();

@@ -2,6 +2,10 @@
 #include "readers/forms.hpp"
 namespace bedscope::readers {
 extern const Form vtk_xml;
-const Form vtk_xml{.name = "vtk-xml", .description = "", .reference = "",
-    .matches = [](std::string_view) { return false; }, .scan = nullptr, .read = nullptr};
+const Form vtk_xml{.name = "vtk-xml",
+                   .description = "",
+                   .reference = "",
+                   .matches = [](std::string_view) { return false; },
+                   .scan = nullptr,
+                   .read = nullptr};
 }  // namespace bedscope::readers
