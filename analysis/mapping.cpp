@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "analysis/mapping.hpp"
 
+#include <limits>
 #include <numbers>
 
 #include "readers/error.hpp"
@@ -31,6 +32,9 @@ GridAxis::GridAxis(const Grid& grid, int axis)
   const double images = periodic_ ? (most_sides + 1.0) * cells_ : 0.0;
   lowest_ = std::max(-1.0 - images, -1e9);
   highest_ = std::min(cells_ + images, 1e9);
+  // A dozen roundings at most, of numbers no larger than these.
+  rounding_ = 16.0 * std::numeric_limits<double>::epsilon() *
+              (cells_ + (std::abs(min_) + std::abs(max_)) * per_width_);
 }
 
 double GridAxis::image(double x) const {

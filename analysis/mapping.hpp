@@ -52,17 +52,21 @@ class GridAxis {
   }
 
   /// The one plane that can cut a sphere no wider than a cell: its distance from the centre in
-  /// radii, 1 where it does not cut, and the cells on the centre's side and beyond.
+  /// radii, the cell on the centre's side and the one beyond; 1 and twice the centre's cell where
+  /// it does not cut.
   struct Cut {
     double distance;
     int near, far;
   };
-  Cut cut(double x, double radius) const {
-    const int i = std::clamp(bounded_floor((x - min_) * per_width_ + 0.5), 0, cells_);
-    const double t = (face(i) - x) / radius;
-    const int upper = t < 0.0 ? 1 : 0;  // the centre is above the plane
-    const double distance = std::abs(t) < 1.0 ? std::abs(t) : 1.0;
-    return {distance, cell(i - 1 + upper), cell(i - upper)};
+  Cut cut(double x, double per_radius) const {
+    const double nearest = (x - min_) * per_width_ + 0.5;
+    const int i = static_cast<int>(std::max(0.0, std::min(nearest, static_cast<double>(cells_))));
+    const double t = (face(i) - x) * per_radius, height = 1.0 - std::abs(t);
+    const int above = t < 0.0 ? 1 : 0;  // the centre is above the plane
+    const int cuts = height > 0.0 ? 1 : 0;
+    const int near = i - 1 + above, far = near + cuts * (1 - 2 * above);
+    // 1 - max(height, 0), without the branch that compilers would make of it.
+    return {1.0 - 0.5 * (height + std::abs(height)), cell(near), cell(far)};
   }
 
  private:
@@ -78,6 +82,7 @@ class GridAxis {
   int cells_;
   bool periodic_;
   double lowest_, highest_;  // bounds of bounded_floor
+  double rounding_;          // how near to a face [cells] a product may err about its side
 };
 
 /// The three axes and the cells' order, shared by all kernels.
@@ -111,11 +116,12 @@ class GridAxes {
 
 // A kernel is a value with
 //   template <class Add> double share(const Vec3& centre, double radius, Add&& add) const;
-// which calls add(std::size_t cell, double volume) for every cell that gets a part [m3], a cell
-// perhaps more than once, never with 0, and returns the volume that was put inside: exactly
-// sphere_volume(radius) for a particle wholly inside, so that the caller counts
-// sphere_volume(radius) less the return value as outside. On periodic axes centre and parts wrap.
-// Positions may be any number; a particle without a positive radius is put nowhere.
+// which calls add(std::size_t cell, double volume) for every cell that gets a part [m3] and returns
+// the volume that was put inside: exactly sphere_volume(radius) for a particle wholly inside, so
+// that the caller counts sphere_volume(radius) less the return value as outside. A cell may get
+// several parts of one particle, some of them 0; a cell that the particle does not reach gets none.
+// On periodic axes centre and parts wrap. Positions may be any number; a particle without a
+// positive radius is put nowhere. Thread-safe; nothing is allocated.
 
 /// The whole particle to the cell of its centre. Cells are half-open, the last one closed, as in
 /// numpy.histogram with edges from numpy.linspace. A centre outside the domain: nothing inside.
@@ -151,6 +157,7 @@ class ExactKernel {
   double among_many(const Vec3& centre, double radius, Add& add) const;
 
   GridAxes axes_;
+  static constexpr double smallest_ = 1e-100;  // of less, the volume would be no normal number
   double narrow_;   // radius of the widest sphere that only one plane of a family can cut
   double largest_;  // radius of the largest sphere that is shared at all
 };
@@ -225,13 +232,13 @@ Kernel make_kernel(std::string_view name, const Grid& grid, const KernelOptions&
 inline int GridAxis::cell_of(double x) const {
   x = wrap(x);
   if (!contains(x)) return outside;
-  int i = std::min(bounded_floor((x - min_) * per_width_), cells_ - 1);
-  // The product may round across a face; the comparison decides, as it does for numpy.
-  if (x < face(i))
-    --i;
-  else if (i + 1 < cells_ && x >= face(i + 1))
-    ++i;
-  return i;
+  const double cells = (x - min_) * per_width_;
+  const int i = std::min(static_cast<int>(cells), cells_ - 1);
+  const double into = cells - i;
+  if (into > rounding_ && into < 1.0 - rounding_) return i;
+  // The product may have rounded across a face; the comparison decides, as it does for numpy.
+  if (x < face(i)) return i - 1;
+  return i + 1 < cells_ && x >= face(i + 1) ? i + 1 : i;
 }
 
 template <class Add>
@@ -252,7 +259,6 @@ class ExactKernel::Deposit {
       : axes_(axes), volume_(volume), add_(add) {}
 
   void operator()(int i, int j, int k, double part) {
-    if (!(part > 0.0)) return;
     if (!GridAxes::inside(i, j, k)) {
       whole_ = false;
       return;
@@ -271,57 +277,63 @@ class ExactKernel::Deposit {
 
 template <class Add>
 double ExactKernel::share(const Vec3& centre, double radius, Add&& add) const {
-  if (!(radius > 0.0 && radius <= largest_) || !axes_.within_depth(centre[depth])) return 0.0;
+  if (!(radius >= smallest_ && radius <= largest_) || !axes_.within_depth(centre[depth]))
+    return 0.0;
   const Vec3 x = axes_.wrap(centre);
   if (radius > narrow_) return among_many(x, radius, add);
   return axes_.depth_averaged() ? among_four(x, radius, add) : among_eight(x, radius, add);
 }
 
+// Whether a plane cuts is a toss-up and a wrong guess costs the processor more than the rest of the
+// work. Hence the caps are computed and deposited in any case: where a plane does not cut, its far
+// cell is the near one and the cap is 0.
 template <class Add>
 double ExactKernel::among_four(const Vec3& centre, double radius, Add& add) const {
   const double cube = radius * radius * radius, volume = sphere_volume(radius);
-  const auto x = axes_[lateral].cut(centre[lateral], radius);
-  const auto z = axes_[up].cut(centre[up], radius);
+  const auto x = axes_[lateral].cut(centre[lateral], 1.0 / radius);
+  const auto z = axes_[up].cut(centre[up], 1.0 / radius);
   const double cap_x = cube * cap_volume(x.distance), cap_z = cube * cap_volume(z.distance);
-  double wedge = 0.0;
-  if (x.distance * x.distance + z.distance * z.distance < 1.0)
-    wedge = cube * wedge_volume(x.distance, z.distance);
 
   Deposit<Add> deposit(axes_, volume, add);
+  double wedge = 0.0;
+  if (x.distance * x.distance + z.distance * z.distance < 1.0) {
+    wedge = cube * wedge_volume(x.distance, z.distance);
+    deposit(x.far, 0, z.far, wedge);
+  }
   deposit(x.near, 0, z.near, volume - cap_x - cap_z + wedge);
   deposit(x.far, 0, z.near, cap_x - wedge);
   deposit(x.near, 0, z.far, cap_z - wedge);
-  deposit(x.far, 0, z.far, wedge);
   return deposit.inside();
 }
 
 template <class Add>
 double ExactKernel::among_eight(const Vec3& centre, double radius, Add& add) const {
   const double cube = radius * radius * radius, volume = sphere_volume(radius);
-  const auto x = axes_[0].cut(centre[0], radius);
-  const auto y = axes_[1].cut(centre[1], radius);
-  const auto z = axes_[2].cut(centre[2], radius);
+  const auto x = axes_[0].cut(centre[0], 1.0 / radius);
+  const auto y = axes_[1].cut(centre[1], 1.0 / radius);
+  const auto z = axes_[2].cut(centre[2], 1.0 / radius);
   const double a = x.distance, b = y.distance, c = z.distance;
+  const double aa = a * a, bb = b * b, cc = c * c;
   const double cap_x = cube * cap_volume(a), cap_y = cube * cap_volume(b),
                cap_z = cube * cap_volume(c);
-  const double aa = a * a, bb = b * b, cc = c * c;
-  const double q_xy = aa + bb < 1.0 ? wedge_volume(a, b) : 0.0;
-  const double q_yz = bb + cc < 1.0 ? wedge_volume(b, c) : 0.0;
-  const double q_zx = cc + aa < 1.0 ? wedge_volume(c, a) : 0.0;
+  const double xy = aa + bb < 1.0 ? cube * wedge_volume(a, b) : 0.0;
+  const double yz = bb + cc < 1.0 ? cube * wedge_volume(b, c) : 0.0;
+  const double zx = cc + aa < 1.0 ? cube * wedge_volume(c, a) : 0.0;
   double octant = 0.0;
   if (aa + bb + cc < 1.0)
-    octant = cube * std::min({octant_volume(a, b, c, q_xy + q_yz + q_zx), q_xy, q_yz, q_zx});
-  const double xy = cube * q_xy, yz = cube * q_yz, zx = cube * q_zx;
+    octant = std::min({cube * octant_volume(a, b, c, (xy + yz + zx) / cube), xy, yz, zx});
 
+  // A cap less its wedges is at least a quarter of it; less than 0 only where it is all rounding.
+  const auto rest = [](double part) { return std::max(part, 0.0); };
   Deposit<Add> deposit(axes_, volume, add);
   deposit(x.near, y.near, z.near, volume - cap_x - cap_y - cap_z + xy + yz + zx - octant);
-  deposit(x.far, y.near, z.near, cap_x - xy - zx + octant);
-  deposit(x.near, y.far, z.near, cap_y - xy - yz + octant);
-  deposit(x.near, y.near, z.far, cap_z - yz - zx + octant);
-  deposit(x.far, y.far, z.near, xy - octant);
-  deposit(x.near, y.far, z.far, yz - octant);
-  deposit(x.far, y.near, z.far, zx - octant);
-  deposit(x.far, y.far, z.far, octant);
+  deposit(x.far, y.near, z.near, rest(cap_x - xy - zx + octant));
+  deposit(x.near, y.far, z.near, rest(cap_y - xy - yz + octant));
+  deposit(x.near, y.near, z.far, rest(cap_z - yz - zx + octant));
+  if (xy > 0.0) deposit(x.far, y.far, z.near, xy - octant);
+  if (yz > 0.0) deposit(x.near, y.far, z.far, yz - octant);
+  if (zx > 0.0) deposit(x.far, y.near, z.far, zx - octant);
+  if (octant > 0.0) deposit(x.far, y.far, z.far, octant);
   return deposit.inside();
 }
 

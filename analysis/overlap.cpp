@@ -60,8 +60,8 @@ void box_volumes(const Slabs& x, const Slabs& y, const Slabs& z, BoxVolumes& vol
   constexpr int planes = Slabs::size + 1;
   using Pairs = std::array<std::array<double, planes>, planes>;
   const std::array<const Slabs*, 3> slabs{&x, &y, &z};
-  std::array<std::array<double, planes>, 3> thirds{};
-  std::array<Pairs, 3> wedges{};  // of axes (0, 1), (1, 2), (2, 0)
+  std::array<std::array<double, planes>, 3> thirds;
+  std::array<Pairs, 3> wedges;  // of axes (0, 1), (1, 2), (2, 0)
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const Slabs &first = *slabs[axis], &second = *slabs[(axis + 1) % 3];
     for (int i = 0; i <= first.count; ++i) {
@@ -99,7 +99,7 @@ void box_volumes(const Slabs& x, const Slabs& y, const Slabs& z, BoxVolumes& vol
           };
           volume = std::max((edge(1, 1) - edge(0, 1)) - (edge(1, 0) - edge(0, 0)), 0.0);
         }
-        volumes[static_cast<std::size_t>(i + Slabs::size * (j + Slabs::size * k))] = volume;
+        volumes[Slabs::box(i, j, k)] = volume;
       }
 }
 

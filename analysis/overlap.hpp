@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <numbers>
 
 namespace bedscope::analysis {
@@ -44,6 +45,11 @@ struct Slabs {
   static constexpr int size = 8;
   int count = 0;
   std::array<double, size + 1> at{};
+
+  /// Where box_volumes puts the box of slabs i, j, k.
+  static constexpr std::size_t box(int i, int j, int k) {
+    return static_cast<std::size_t>(i + size * (j + size * k));
+  }
 };
 
 /// Volumes of the unit sphere in the boxes of three families of slabs, into `volumes`, box (i,j,k)
