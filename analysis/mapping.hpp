@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Kernels that share a particle's volume among the cells of a grid.
+// Kernels that share a particle's volume among the cells of a grid. One long header, since all of
+// it runs in the loop over particles and must be seen by the compiler there.
 #pragma once
 
 #include <algorithm>
@@ -30,6 +31,8 @@ class GridAxis {
   double face(int i) const { return i == cells_ ? max_ : min_ + i * width_; }
 
   bool contains(double x) const { return x >= min_ && x <= max_; }
+  /// Whether any of [x - reach, x + reach] is within the domain.
+  bool meets(double x, double reach) const { return x >= min_ - reach && x <= max_ + reach; }
   /// x itself, or on a periodic axis its image inside the domain.
   double wrap(double x) const { return !periodic_ || contains(x) ? x : image(x); }
   /// The cell [face(i), face(i + 1)) that holds x, the last one closed; periodic: that of its
@@ -280,6 +283,9 @@ double ExactKernel::share(const Vec3& centre, double radius, Add&& add) const {
   if (!(radius >= smallest_ && radius <= largest_) || !axes_.within_depth(centre[depth]))
     return 0.0;
   const Vec3 x = axes_.wrap(centre);
+  if (!axes_[lateral].meets(x[lateral], radius) || !axes_[up].meets(x[up], radius) ||
+      (!axes_.depth_averaged() && !axes_[depth].meets(x[depth], radius)))
+    return 0.0;
   if (radius > narrow_) return among_many(x, radius, add);
   return axes_.depth_averaged() ? among_four(x, radius, add) : among_eight(x, radius, add);
 }
@@ -369,10 +375,9 @@ double ExactKernel::among_many(const Vec3& centre, double radius, Add& add) cons
         for (int k = 0; k < z.count; ++k)
           for (int j = 0; j < y.count; ++j)
             for (int i = 0; i < x.count; ++i)
-              deposit(
-                  axes_[0].cell(i0 + i), axes_[1].cell(j0 + j), axes_[2].cell(k0 + k),
-                  cube *
-                      volumes[static_cast<std::size_t>(i + Slabs::size * (j + Slabs::size * k))]);
+              if (const double part = volumes[Slabs::box(i, j, k)]; part > 0.0)
+                deposit(axes_[0].cell(i0 + i), axes_[1].cell(j0 + j), axes_[2].cell(k0 + k),
+                        cube * part);
       }
   return deposit.inside();
 }
