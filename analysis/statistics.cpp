@@ -213,21 +213,57 @@ constexpr std::size_t samples_a_mean = 5;      // of MSER-5
 constexpr std::size_t fewest_for_steady = 20;  // samples
 constexpr std::size_t fewest_kept = 5;         // means: the variance of fewer is small by chance
 constexpr double as_good = 1.1;                // times the minimum
-constexpr double significant_trend = 3;        // standard errors
+constexpr double significant_drift = 3;        // standard errors
+constexpr double significant_jump = 5;         // more, as its place is chosen from the series
 
-/// |slope| of the least-squares line over its standard error, correlation included.
-double trend_significance(std::span<const double> series) {
-  const double n = static_cast<double>(series.size());
-  const double mean = std::accumulate(series.begin(), series.end(), 0.0) / n;
-  const double spread = n * (n * n - 1) / 12;  // sum of squared times about their middle
-  const auto time = [n](std::size_t i) { return static_cast<double>(i) - (n - 1) / 2; };
-  double slope = 0;
-  for (std::size_t i = 0; i < series.size(); ++i) slope += time(i) * series[i] / spread;
-  std::vector<double> residuals(series.size());
-  for (std::size_t i = 0; i < series.size(); ++i) residuals[i] = series[i] - mean - slope * time(i);
-  const double variance =
-      sum_of_squares(residuals) / (n - 2) * autocorrelation_time(residuals).value;
-  return std::abs(slope) / std::sqrt(variance / spread);
+/// Least-squares fit of a times a shape to a series, both of zero mean.
+struct Fit {
+  double significance = 0;  ///< |a| over its standard error, correlation included
+  double residue = 0;       ///< sum of squares that is left
+};
+
+std::vector<double> without_mean(std::span<const double> series) {
+  const double sum = std::accumulate(series.begin(), series.end(), 0.0);
+  std::vector<double> deviations(series.begin(), series.end());
+  for (double& x : deviations) x -= sum / static_cast<double>(series.size());
+  return deviations;
+}
+
+Fit fit(std::vector<double> deviations, const std::vector<double>& shape) {
+  const double spread = sum_of_squares(shape);
+  const double amplitude =
+      std::inner_product(shape.begin(), shape.end(), deviations.begin(), 0.0) / spread;
+  for (std::size_t i = 0; i < shape.size(); ++i) deviations[i] -= amplitude * shape[i];
+  const double residue = sum_of_squares(deviations);
+  const double variance = residue / static_cast<double>(shape.size() - 2) *
+                          autocorrelation_time(deviations).value / spread;
+  return {std::abs(amplitude) / std::sqrt(variance), residue};
+}
+
+/// Where a series of zero mean jumps, if it does: the two means that leave the least squares.
+std::size_t best_jump(std::span<const double> deviations) {
+  std::size_t best = 1;
+  double most = 0, sum = 0;
+  for (std::size_t i = 1; i < deviations.size(); ++i) {
+    sum += deviations[i - 1];
+    const double explained = sum * sum / static_cast<double>(i * (deviations.size() - i));
+    if (explained <= most) continue;
+    most = explained;
+    best = i;
+  }
+  return best;
+}
+
+/// Whether a series drifts, or jumps: the better fit of the two decides.
+bool changes(std::span<const double> series) {
+  const std::vector<double> deviations = without_mean(series);
+  std::vector<double> line(series.size()), step(series.size(), 0.0);
+  std::iota(line.begin(), line.end(), 0.0);
+  std::fill(step.begin() + static_cast<std::ptrdiff_t>(best_jump(deviations)), step.end(), 1.0);
+  const Fit drift = fit(deviations, without_mean(line));
+  const Fit leap = fit(deviations, without_mean(step));
+  return leap.residue < drift.residue ? leap.significance > significant_jump
+                                      : drift.significance > significant_drift;
 }
 
 /// The rule's statistic for each number of means cut off the front; the last ones are left out.
@@ -272,8 +308,7 @@ SteadyStart steady_start(std::span<const double> series) {
   const auto half = begin + static_cast<std::ptrdiff_t>(n / length / 2);
   const auto best = std::min_element(begin, statistic.end());
   const auto early = std::min_element(begin, half + 1);
-  result.steady =
-      best < half || trend_significance(series.subspan(sample(early - begin))) <= significant_trend;
+  result.steady = best < half || !changes(series.subspan(sample(early - begin)));
   auto chosen = best;
   if (result.steady) {
     chosen = *early > 0 ? half : early;  // an exactly constant rest is kept whole

@@ -56,11 +56,12 @@ struct SteadyStart {
 ///
 /// In the first half the latest d within 10 % of the minimum there is taken: the minimum is flat
 /// and noisy, and this costs little but leaves a third of the transient's bias. `steady` is false
-/// where the minimum lies in the second half *and* the trend of what the first half's best start
-/// leaves exceeds 3 of its standard errors, correlation included; `start` is then that minimum.
-/// (On its own the minimum of a stationary AR(1) series, rho = 0.95, n = 400, lies in the second
-/// half every second time.) Fewer than 20 samples, or a value that is not finite: start 0, not
-/// steady.
+/// where the minimum lies in the second half *and* what the first half's best start leaves changes
+/// for certain: a line through it rises by 3 of its standard errors or, where that fits better, the
+/// mean jumps once by 5, correlation included; `start` is then that minimum. (On its own
+/// the minimum of a stationary AR(1) series, rho = 0.95, n = 400, lies in the second half every
+/// second time.) A rest that is exactly constant is kept whole. Fewer than 20 samples, or a value
+/// that is not finite: start 0, not steady.
 /// Sources: White, Simulation 69 (1997) 323; White, Cobb and Spratt, Proc. Winter Simulation Conf.
 /// (2000) 755.
 SteadyStart steady_start(std::span<const double> series);
