@@ -5,7 +5,6 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <numeric>
 #include <vector>
@@ -20,12 +19,10 @@ constexpr double batch_length = 5;           // in autocorrelation times
 constexpr double correlated = 2;             // an autocorrelation time that widens the interval
 constexpr double disagreement = 2.5;         // between the two standard errors
 constexpr double enough_independent = 10;    // samples
-constexpr double enough_for_skewness = 8;    // samples, per skewness squared
+constexpr double enough_for_skewness = 12;   // samples, per skewness squared
 constexpr std::size_t fewest_for_time = 10;  // samples to estimate an autocorrelation time from
 
 constexpr double rounding = 1e-12;  // of the largest magnitude: sums of 1e6 terms in any order
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 bool is_constant(std::span<const double> values) {
   const auto [lowest, highest] = std::minmax_element(values.begin(), values.end());

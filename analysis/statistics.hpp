@@ -24,7 +24,7 @@ struct MeanEstimate : Estimate {
 /// se_batches: batch means, B batches of consecutive samples, B = n / (5 tau) kept within 4 and 10;
 /// se_tau = sqrt(tau / n) sigma, the second opinion, widens the interval only where tau > 2 (else
 /// it would make that of white noise too wide). tau: see autocorrelation_time.
-/// few_samples: n < 10, or n / tau, taken one standard error of tau lower, below 10 or below 8 g^2
+/// few_samples: n < 10, or n / tau, taken one standard error of tau lower, below 10 or below 12 g^2
 /// with the skewness g (a series of rare bursts; Cochran's rule asks for 25 g^2).
 ///
 /// `values`: snapshots or means over consecutive ones, all finite; `weights`: the time each stands

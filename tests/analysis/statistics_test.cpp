@@ -298,6 +298,7 @@ TEST(EstimateRatio, IsUndefinedWhereNothingWasSeen) {
   EXPECT_TRUE(std::isnan(ratio.value));
   EXPECT_TRUE(std::isnan(ratio.ci95));
   EXPECT_TRUE(std::isnan(estimate_ratio({}, {}, {}).value));
+  EXPECT_TRUE(std::isnan(estimate_ratio(ones(20), Series(20, 0.0), ones(20)).value));
 }
 
 TEST(EstimateRatio, HasNoIntervalWhereOneBatchSawEverything) {

@@ -75,7 +75,7 @@ TEST(SelectWindow, IsEmptyOutsideTheSeriesBetweenSnapshotsAndUpsideDown) {
   EXPECT_EQ(select_window(times, 5, 9, 0.1).count, 0U);
   EXPECT_EQ(select_window(times, -9, -5, 0.1).count, 0U);
   EXPECT_EQ(select_window(times, 1.3, 1.6, 0.1).count, 0U);
-  EXPECT_EQ(select_window(times, 2, 1, 0.1).count, 0U);
+  EXPECT_EQ(select_window(times, 3, 1, 0.1).count, 0U);
   EXPECT_EQ(select_window({}, 0, 1, 0.1).count, 0U);
 }
 
