@@ -146,9 +146,13 @@ TEST(Clusters, the_core_itself_is_not_above_it) {
 
 TEST(Clusters, an_area_of_exactly_the_smallest_counts_and_a_cell_less_does_not) {
   for (int n = 1; n <= 25; ++n) {
-    Field field(grid_of(28, 628, 0.07 / 28, 1.57 / 628));
+    // A domain away from 0 has cells that are 2.5 mm wide only to rounding.
+    Grid grid = grid_of(28, 628, 2.5e-3, 2.5e-3);
+    grid.min = {0.1 * n, 0, 0.3 * n};
+    grid.max = {0.1 * n + 0.07, 0.006, 0.3 * n + 1.57};
+    Field field(grid);
     for (int i = 0; i < n; ++i) field.at(i, 300) = 0.5;
-    field.thresholds.min_area = n * 6.25e-6;  // as a study says it: not the product to the bit
+    field.thresholds.min_area = n * 6.25e-6;
     EXPECT_EQ(field.find().clusters.size(), 1u) << n;
     field.at(n - 1, 300) = 0.05;
     const auto image = field.find();
