@@ -1,14 +1,13 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Lints the lints: each one passes a clean tree and minds one planted violation by name.
+# Lints the lints: each one passes a clean tree and minds a planted violation by name.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 tree=$(mktemp -d)
 trap 'rm -rf "$tree"' EXIT
 
-# catches LINT EXPECTED FILE TEXT: the lint passes without the file and names it with it.
-catches() {
-  "$here/$1.sh" "$tree" || { echo "$1 minds a clean tree"; exit 1; }
+# fails LINT EXPECTED FILE TEXT: the lint minds the file in these words.
+fails() {
   mkdir -p "$tree/$(dirname "$3")"
   printf '%b' "$4" > "$tree/$3"
   if found=$("$here/$1.sh" "$tree" 2>&1); then echo "$1 passes $3: $4"; exit 1; fi
@@ -17,6 +16,11 @@ catches() {
     *) echo "$1 should say '$2', says: $found"; exit 1 ;;
   esac
   rm "$tree/$3"
+}
+# catches: the same, and without the file the lint has nothing to say.
+catches() {
+  "$here/$1.sh" "$tree" || { echo "$1 minds a clean tree"; exit 1; }
+  fails "$@"
 }
 # passes LINT FILE TEXT: the lint has nothing against it.
 passes() {
@@ -54,6 +58,11 @@ passes paths docs/a.md 'In readers/good.hpp. [it](../readers/good.hpp) `readers/
 
 if command -v clang-format >/dev/null; then
   catches format 'readers/a.cpp:1' readers/a.cpp 'int  x;\n'
+fi
+if command -v clang-tidy >/dev/null; then
+  tidy='Checks: >\n  -*,\n  bugprone-*,\n  '
+  passes tidy_checks .clang-tidy "$tidy-bugprone-branch-clone\nOther: x\n"
+  fails tidy_checks 'cppcoreguideline-* names no check' .clang-tidy "${tidy}cppcoreguideline-*\n"
 fi
 catches_start_up() {  # a program that does load VTK is not at hand, a copy of ldd's words is
   mkdir "$tree/bin"
