@@ -48,38 +48,12 @@ FirstLook look(const RunSettings& settings, const readers::Series& series) {
   return found;
 }
 
-void set_times(const RunSettings& settings, const readers::Series& series,
-               const readers::LiggghtsLog& log, RunSetup& setup) {
-  auto step = settings.time_step;
-  if (!step && log.time_step) {
-    step = log.time_step;
-    if (log.several_time_steps)
-      setup.problems.push_back(fmt::format("{}: several time steps; the last, {} s, is used",
-                                           log.path, *step));
-  }
-  setup.times.reserve(series.size());
-  if (step) {
-    for (std::size_t i = 0; i < series.size(); ++i)
-      setup.times.push_back(static_cast<double>(series.step(i) - settings.step_zero) * *step);
-    setup.half_step = *step / 2;
-    return;
-  }
-  for (std::size_t i = 0; i < series.size() && !std::isnan(series.time(i)); ++i)
-    setup.times.push_back(series.time(i));
-  if (setup.times.size() == series.size()) return;
-  if (settings.time_required)
-    throw InputError(
-        "run \"{}\": time_step is missing: no log.liggghts beside the dumps tells it; expected "
-        "time_step = ... [s a step] in the [[run]]",
-        settings.label);
-  setup.time_known = false;
-  setup.times.clear();
-  for (std::size_t i = 0; i < series.size(); ++i)
-    setup.times.push_back(static_cast<double>(series.step(i)));
-  setup.half_step = 0.5;
-  setup.problems.push_back(
-      "time step unknown (no study, no log.liggghts beside the dumps): times are nan, snapshots "
-      "weigh by their steps");
+void find_time_step(const readers::LiggghtsLog& log, RunSetup& setup) {
+  setup.time_step = setup.settings.time_step;
+  if (setup.time_step || !log.time_step) return;
+  setup.time_step = log.time_step;
+  setup.problems.push_back(fmt::format("time_step of {} s taken from {}{}", *log.time_step, log.path,
+                                       log.several_time_steps ? ", the last of several" : ""));
 }
 
 double mean_radius(const RunSetup& setup, const FirstLook& first) {
@@ -272,12 +246,42 @@ void set_heights(RunSetup& setup) {
 
 }  // namespace
 
+void update_times(RunSetup& setup, const readers::Series& series) {
+  const auto& settings = setup.settings;
+  setup.times.clear();
+  if (setup.time_step) {
+    for (std::size_t i = 0; i < series.size(); ++i)
+      setup.times.push_back(static_cast<double>(series.step(i) - settings.step_zero) *
+                            *setup.time_step);
+    setup.half_step = *setup.time_step / 2;
+    return;
+  }
+  for (std::size_t i = 0; i < series.size() && !std::isnan(series.time(i)); ++i)
+    setup.times.push_back(series.time(i));  // some forms store it
+  if (setup.times.size() == series.size()) return;
+  if (settings.time_required)
+    throw InputError(
+        "run \"{}\": time_step is missing: no log.liggghts beside the dumps tells it; expected "
+        "time_step = ... [s a step] in the [[run]]",
+        settings.label);
+  setup.times.clear();
+  for (std::size_t i = 0; i < series.size(); ++i)
+    setup.times.push_back(static_cast<double>(series.step(i)));
+  setup.half_step = 0.5;
+  if (!setup.time_known) return;
+  setup.time_known = false;
+  setup.problems.push_back(
+      "time step unknown (no study, no log.liggghts beside the dumps): times are nan, snapshots "
+      "weigh by their steps");
+}
+
 RunSetup set_up(const RunSettings& settings, const readers::Series& series) {
   RunSetup setup;
   setup.settings = settings;
   const auto log = readers::find_log(series.path(0));
   const auto first = look(settings, series);
-  set_times(settings, series, log, setup);
+  find_time_step(log, setup);
+  update_times(setup, series);
 
   setup.radius_in_dumps = !settings.radius.given();
   if (setup.radius_in_dumps && first.snapshot.particles > 0 && first.column(FirstLook::radius).empty())

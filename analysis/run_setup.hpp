@@ -38,7 +38,8 @@ struct RunSetup {
 
   std::vector<double> times;  ///< [s]; where no time step is known the steps themselves
   bool time_known = true;
-  double half_step = 0;       ///< [s] by which the window is widened
+  std::optional<double> time_step;  ///< [s], from the study or the log
+  double half_step = 0;             ///< [s] by which the window is widened
 
   ByType density;             ///< [kg/m3], from the study, a column, or the log
   std::vector<double> heights;
@@ -49,5 +50,8 @@ struct RunSetup {
 
 /// Throws InputError naming the key for whatever is neither in the study nor on disk.
 RunSetup set_up(const RunSettings& settings, const readers::Series& series);
+
+/// Sets the times anew for a series that has grown.
+void update_times(RunSetup& setup, const readers::Series& series);
 
 }  // namespace bedscope::analysis
