@@ -2,6 +2,7 @@
 // From names on disk to the field's names: which columns to parse, and what to do with them.
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
 #include <string_view>
@@ -20,9 +21,12 @@ struct ColumnPlan {
     int scaled_axis = -1;                ///< 0..2: a box fraction along this axis, else -1
   };
   std::vector<Output> outputs;  ///< one a requested column; raw[0] < 0: absent
+  /// Positions in `parse` of columns that carry one name: they must agree (`type type` is usual).
+  std::vector<std::array<int, 2>> twins;
 };
 
-/// Finds the columns asked for among `names` (doubled names: the first is taken).
+/// Finds the columns asked for among `names` (doubled names: the last is taken, and
+/// both are parsed so that the reader can compare them).
 /// `where` ("path: line 9") begins the text of the FormatError for a required column that is absent.
 ColumnPlan plan_columns(std::span<const std::string> names, const Request& request,
                         const std::string& where);

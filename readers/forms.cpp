@@ -1,1 +1,53 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "readers/forms.hpp"
+
+#include <array>
+
+#include "readers/error.hpp"
+#include "readers/source.hpp"
+
+namespace bedscope::readers {
+
+extern const Form liggghts_text, vtk_legacy, vtk_xml;
+
+std::span<const Form* const> forms() {
+  static constexpr std::array<const Form*, 3> all{&liggghts_text, &vtk_legacy, &vtk_xml};
+  return all;
+}
+
+namespace {
+
+/// Files that are often taken for particle dumps, by what their first bytes hold.
+struct Stranger {
+  std::string_view begins;
+  std::string_view what;
+};
+constexpr std::array strangers{
+    Stranger{"version https://git-lfs", "a git-lfs pointer, not data: run git lfs pull"},
+    Stranger{"solid ", "an STL mesh, not particles"},
+    Stranger{"STL File", "an STL mesh, not particles"},
+    Stranger{"<!DOCTYPE html", "an HTML page, not particles"},
+    Stranger{"<html", "an HTML page, not particles"},
+    Stranger{"LIGGGHTS (", "a LIGGGHTS log, not particles"},
+    Stranger{"LAMMPS data file", "a LIGGGHTS data file (write_data), not a dump"},
+};
+
+}  // namespace
+
+const Form& identify(const std::string& path) {
+  const auto head = read_head(path);
+  if (head.empty()) throw FormatError("{}: file is empty", path);
+  for (const auto* form : forms())
+    if (form->matches(head)) return *form;
+  for (const auto& stranger : strangers)
+    if (head.starts_with(stranger.begins)) throw FormatError("{}: {}", path, stranger.what);
+  if (head.substr(0, 64).find("LIGGGHTS") != head.npos)
+    throw FormatError("{}: offset 0: a LIGGGHTS restart file, not a dump", path);
+  if (head.find_first_not_of("\r\n \t") == head.npos)
+    throw FormatError("{}: no \"ITEM:\" found, only line ends", path);
+  std::string names;
+  for (const auto* form : forms()) names += (names.empty() ? "" : ", ") + std::string(form->name);
+  throw FormatError("{}: not a particle dump of a known form ({})", path, names);
+}
+
+}  // namespace bedscope::readers

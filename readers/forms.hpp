@@ -13,6 +13,8 @@
 
 namespace bedscope::readers {
 
+class Checkpoint;
+
 /// One snapshot inside a file, found without parsing its rows.
 struct Located {
   std::int64_t step = no_step;  ///< no_step where the form stores none (VTK: the file's name tells)
@@ -20,7 +22,7 @@ struct Located {
   std::int64_t particles = 0;   ///< as declared
   std::uint64_t offset = 0;     ///< [bytes] of the decompressed file
   std::uint64_t bytes = 0;      ///< length of the snapshot, 0: to the end of the file
-  std::uint64_t line = 1;       ///< of its first line, 0 where unknown
+  std::shared_ptr<const Checkpoint> checkpoint;  ///< where a gzip file can be entered near `offset`
   Box box;
   std::shared_ptr<const std::vector<std::string>> columns;  ///< names as on disk
 };
@@ -36,8 +38,8 @@ struct FileScan {
 /// Buffers that a reader re-uses from snapshot to snapshot; one for each thread.
 struct Scratch {
   std::vector<char> bytes;
-  std::vector<std::vector<double>> raw;
-  std::vector<char> text;
+  std::vector<char> decoded;
+  std::vector<std::vector<double>> raw;  ///< parsed columns, before plan_columns' last step
 };
 
 /// One form of particle dump. All functions are thread-safe and keep no file open.
@@ -58,6 +60,9 @@ struct Form {
   /// Throws FormatError (path, place, expected, found) on anything that is not as it should be.
   void (*read)(const std::string& path, const Located& where, const Request& request,
                Snapshot& out, Scratch& scratch);
+
+  /// Where a particle stands, for messages ("line 13"); null: "point 4".
+  std::string (*place)(const std::string& path, const Located& where, std::size_t row) = nullptr;
 };
 
 /// Every form that we read, in alphabetic order.

@@ -1,1 +1,563 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// LIGGGHTS (and LAMMPS) `dump custom` in text: one or many snapshots in a file, plain or gzip.
+//
+//   ITEM: TIMESTEP / ITEM: NUMBER OF ATOMS / ITEM: BOX BOUNDS ff ff ff / ITEM: ATOMS id type x ...
+//
+// and one row of blank-separated values a particle. LIGGGHTS ends rows with a blank, so a last row
+// with that blank is whole even without its line end.
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <optional>
+
+#include "readers/byte_window.hpp"
+#include "readers/columns.hpp"
+#include "readers/error.hpp"
+#include "readers/forms.hpp"
+#include "readers/numbers.hpp"
+#include "readers/source.hpp"
+#include "readers/tokens.hpp"
+
+namespace bedscope::readers {
+namespace {
+
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+constexpr std::string_view first_item = "ITEM: ";
+
+std::string quote(std::string_view text) {
+  std::string quoted = "\"";
+  for (const char c : text.substr(0, 40))
+    quoted += static_cast<unsigned char>(c) < ' ' ? '?' : c;
+  return quoted + (text.size() > 40 ? "...\"" : "\"");
+}
+
+/// What stands before the rows of a snapshot.
+struct Header {
+  std::int64_t step = no_step;
+  double time = unknown;
+  std::int64_t particles = -1;
+  Box box;
+  std::vector<std::string> columns;
+  std::uint64_t offset = 0;  // of its first line
+  std::uint64_t lines = 0;   // up to and with "ITEM: ATOMS"
+};
+
+/// Reads the header of a snapshot line by line. The numbers of lines are counted from the snapshot's
+/// first line and turned into the file's only in errors.
+class HeaderReader {
+ public:
+  HeaderReader(ByteWindow& window, const std::string& path) : window_(window), path_(path) {}
+
+  /// The next header, or nothing at the end of the file (blank lines are passed over).
+  std::optional<Header> next() {
+    header_ = {};
+    skip_blank_lines();
+    if (!window_.ensure(1)) return std::nullopt;
+    header_.offset = window_.offset();
+    while (true) {
+      const auto line = require_line("a section (\"ITEM: ...\")");
+      std::string_view text = line;
+      if (header_.lines == 1 && text.starts_with(byte_order_mark))
+        text.remove_prefix(byte_order_mark.size());
+      if (!text.starts_with(first_item)) {
+        if (header_.lines == 1 && text.find('\0') != text.npos) fail("NUL byte");
+        fail("expected \"ITEM: ...\", found {}", quote(text));
+      }
+      text.remove_prefix(first_item.size());
+      if (text.starts_with("TIMESTEP")) {
+        header_.step = integer("the step");
+      } else if (text.starts_with("TIME")) {
+        header_.time = number("the time");
+      } else if (text.starts_with("UNITS") || text.starts_with("LABEL")) {
+        require_line("a text");
+      } else if (text.starts_with("NUMBER OF ATOMS")) {
+        header_.particles = integer("the number of atoms");
+        if (header_.particles < 0) fail("count is negative: {}", header_.particles);
+      } else if (text.starts_with("NUMBER OF ENTRIES") || text.starts_with("NUMBER OF CONTACTS")) {
+        fail("a dump local ({}): contacts, not particles", text.substr(10));
+      } else if (text.starts_with("BOX BOUNDS")) {
+        read_box(text.substr(10));
+      } else if (text.starts_with("ATOMS")) {
+        finish(text.substr(5));
+        return header_;
+      } else {
+        fail("unknown section {}", quote(line));
+      }
+    }
+  }
+
+  template <class... T>
+  [[noreturn]] void fail(fmt::format_string<T...> text, T&&... values) const {
+    const auto line = line_at(path_, header_.offset) + header_.lines - 1;
+    throw FormatError("{}: line {}: {}", path_, line, fmt::format(text, std::forward<T>(values)...));
+  }
+
+ private:
+  void skip_blank_lines() {
+    while (window_.ensure(1) && (*window_.begin() == '\n' || *window_.begin() == '\r' ||
+                                 *window_.begin() == ' ' || *window_.begin() == '\t'))
+      window_.drop_until(window_.begin() + 1);
+  }
+
+  std::string require_line(const char* expected) {
+    const auto line = window_.line();
+    ++header_.lines;
+    if (!line) fail("expected {}, found end of file", expected);
+    return std::string(*line);
+  }
+
+  std::int64_t integer(const char* what) {
+    const auto line = require_line(what);
+    std::string_view rest = line;
+    const auto word = next_word(rest);
+    std::int64_t value = 0;
+    bool overflow = false;
+    if (!parse_integer(word, value, overflow)) {
+      if (overflow) fail("{} does not fit in 64 bits: {}", what, quote(word));
+      if (word.starts_with(first_item) || word.empty()) fail("expected {}, found {}", what, quote(line));
+      fail("expected an integer ({}), found {}", what, quote(word));
+    }
+    return value;
+  }
+
+  double number(const char* what) {
+    const auto line = require_line(what);
+    std::string_view rest = line;
+    const auto word = next_word(rest);
+    double value = 0;
+    if (!parse_number(word.data(), word.data() + word.size(), value))
+      fail("expected a number ({}), found {}", what, quote(line));
+    return value;
+  }
+
+  void read_box(std::string_view flags) {
+    auto& box = header_.box;
+    box.known = true;
+    std::vector<std::string_view> words;
+    for (auto word = next_word(flags); !word.empty(); word = next_word(flags)) words.push_back(word);
+    const bool triclinic = !words.empty() && words[0] == "xy";
+    if (triclinic && words.size() >= 3) words.erase(words.begin(), words.begin() + 3);
+    if (!words.empty() && words[0] == "abc")
+      fail("a general triclinic box (\"abc origin\") is not supported");
+    const std::size_t count = triclinic ? 3 : 2;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto line = require_line("box bounds");
+      std::array<double, 3> values{};
+      std::string_view rest = line;
+      for (std::size_t k = 0; k < count; ++k) {
+        const auto word = next_word(rest);
+        if (word.empty() || !parse_number(word.data(), word.data() + word.size(), values[k]))
+          fail("expected {} box numbers, found {}", count, quote(line));
+      }
+      box.min[axis] = values[0];
+      box.max[axis] = values[1];
+      if (triclinic) box.tilt[axis] = values[2];
+      if (axis < words.size()) box.periodic[axis] = words[axis].starts_with('p');
+      if (!(box.max[axis] > box.min[axis]))
+        fail("box has no width in {}: {} {}", "xyz"[axis], values[0], values[1]);
+    }
+  }
+
+  void finish(std::string_view names) {
+    if (header_.step == no_step) fail("\"ITEM: ATOMS\" before \"ITEM: TIMESTEP\"");
+    if (header_.particles < 0) fail("\"ITEM: ATOMS\" before \"ITEM: NUMBER OF ATOMS\"");
+    for (auto name = next_word(names); !name.empty(); name = next_word(names))
+      header_.columns.emplace_back(name);
+    if (header_.columns.empty())
+      fail("\"ITEM: ATOMS\" without column names (LAMMPS before 2010)");
+  }
+
+  ByteWindow& window_;
+  const std::string& path_;
+  Header header_;
+};
+
+// --- finding the snapshots of a file ---------------------------------------------------------------
+
+/// Moves the window to the next line that begins with "ITEM:", counting line ends and the first NUL
+/// byte on the way. `last` keeps what the body's last line looks like.
+struct Body {
+  std::uint64_t lines = 0;         // line ends
+  std::uint64_t nul = 0;           // offset of the first NUL byte
+  bool has_nul = false;
+  bool found_header = false;
+  std::string tail;                // bytes after the last line end, at the end of the file
+};
+
+Body skip_body(ByteWindow& window) {
+  Body body;
+  bool line_start = true;  // the window stands at the start of a line
+  while (true) {
+    const char* at = window.begin();
+    const char* const end = window.end();
+    const char* header = nullptr;
+    // Rows hold digits; a capital I is rare, so this runs at the speed of memchr.
+    while (at < end) {
+      const auto* candidate = static_cast<const char*>(
+          std::memchr(at, 'I', static_cast<std::size_t>(end - at)));
+      if (candidate == nullptr) break;
+      const bool at_line_start = candidate == window.begin() ? line_start : candidate[-1] == '\n';
+      if (at_line_start) {
+        if (end - candidate < 5) {
+          header = candidate;
+          break;
+        }
+        if (std::string_view(candidate, 5) == "ITEM:") {
+          header = candidate;
+          break;
+        }
+      }
+      at = candidate + 1;
+    }
+    const char* stop = header != nullptr ? header : end;
+    if (!body.has_nul)
+      if (const void* nul = std::memchr(window.begin(), 0, static_cast<std::size_t>(stop - window.begin()))) {
+        body.has_nul = true;
+        body.nul = window.offset(static_cast<const char*>(nul));
+      }
+    body.lines += static_cast<std::uint64_t>(std::count(window.begin(), stop, '\n'));
+    // What follows the last line end is kept short: one row is all that matters.
+    const char* tail = stop;
+    while (tail > window.begin() && tail[-1] != '\n') --tail;
+    if (tail > window.begin()) body.tail.clear();
+    if (body.tail.size() < (1U << 20)) body.tail.append(tail, stop);
+    if (stop > window.begin()) line_start = stop[-1] == '\n';
+    window.drop_until(stop);
+    if (header != nullptr && end - header >= 5) {
+      body.found_header = true;
+      return body;
+    }
+    if (!window.more()) {
+      if (window.size() > 0) {  // "I", "IT" ... at the very end
+        body.tail.assign(window.begin(), window.end());
+        window.drop_until(window.end());
+      }
+      return body;
+    }
+  }
+}
+
+std::int64_t count_words(std::string_view row, std::int64_t limit) {
+  std::int64_t words = 0;
+  while (words < limit && !next_word(row).empty()) ++words;
+  return words;
+}
+
+/// Why the snapshot behind `header` is not whole; empty if it is.
+std::string incompleteness(const std::string& path, const Header& header, const Body& body,
+                           const std::string& gzip_cut) {
+  const auto columns = static_cast<std::int64_t>(header.columns.size());
+  const auto declared = static_cast<std::uint64_t>(header.particles);
+  std::uint64_t rows = body.lines;
+  if (body.has_nul) {
+    const auto first_row = line_at(path, header.offset) + header.lines;
+    const auto line = line_at(path, body.nul);
+    if (line - first_row < declared) return fmt::format("line {}: NUL byte", line);
+    return {};
+  }
+  const bool open_row = body.tail.find_first_not_of(" \t\r") != std::string::npos;
+  if (rows + open_row >= declared && rows < declared && body.tail.ends_with(' ') &&
+      count_words(body.tail, columns + 1) == columns)
+    ++rows;
+  if (rows >= declared) return {};
+  const auto line = line_at(path, header.offset) + header.lines + rows;
+  if (!gzip_cut.empty())
+    return fmt::format("{}: {} declared, {} present", gzip_cut, declared, rows);
+  if (open_row) {
+    const auto words = count_words(body.tail, columns + 1);
+    if (words > columns)
+      return fmt::format("line {}: {} values expected, more than {} found; no line end: file is cut",
+                         line, columns, columns);
+    if (rows + 1 == declared)
+      return fmt::format("line {}: {} values expected, {} found; no line end: file is cut", line,
+                         columns, words);
+  }
+  return fmt::format("after line {}: {} declared, {} present", line - 1, declared, rows);
+}
+
+Located locate(const Header& header, std::shared_ptr<const std::vector<std::string>> columns) {
+  Located located;
+  located.step = header.step;
+  located.time = header.time;
+  located.particles = header.particles;
+  located.offset = header.offset;
+  located.box = header.box;
+  located.columns = std::move(columns);
+  return located;
+}
+
+/// One snapshot in the file, to judge from its name (which holds the step), its first rows and its
+/// size? Then nobody needs to read it before its turn. A wrong guess is found when it is read.
+bool looks_single(const std::string& path, const Header& header, const ByteWindow& window,
+                  std::uint64_t file_size) {
+  const auto name = std::filesystem::path(path).filename().string();
+  const auto step = std::to_string(header.step);
+  const auto at = name.find(step);
+  if (at == name.npos || header.particles < 100) return false;
+  const auto rows = std::count(window.begin(), window.end(), '\n');
+  if (rows < 20) return false;
+  const double row = static_cast<double>(window.size()) / static_cast<double>(rows);
+  const double expected = static_cast<double>(header.particles) * row;
+  const auto body = static_cast<double>(file_size - window.offset());
+  return body < 1.25 * expected;
+}
+
+/// The header alone, where the file looks like one snapshot (see looks_single).
+std::optional<Located> glance(const std::string& path) {
+  constexpr std::size_t first_look = 1U << 14;
+  Source source(path);
+  std::vector<char> buffer;
+  ByteWindow window(source, buffer, first_look);
+  const auto header = HeaderReader(window, path).next();
+  if (!header || !looks_single(path, *header, window, source.likely_size())) return std::nullopt;
+  return locate(*header, std::make_shared<const std::vector<std::string>>(header->columns));
+}
+
+FileScan scan(const std::string& path, bool thorough) {
+  FileScan found;
+  if (!thorough) {
+    if (auto located = glance(path)) {
+      found.snapshots.push_back(std::move(*located));
+      return found;
+    }
+  }
+  Source source(path);
+  if (source.size_bound() == 0) throw FormatError("{}: file is empty", path);
+  std::vector<char> buffer;
+  ByteWindow window(source, buffer);
+  HeaderReader headers(window, path);
+  std::shared_ptr<const std::vector<std::string>> columns;
+  std::vector<std::pair<std::uint64_t, std::shared_ptr<const Checkpoint>>> entries;  // of gzip
+  while (true) {
+    std::optional<Header> header;
+    try {
+      header = headers.next();
+    } catch (const FormatError& error) {
+      // A header that breaks off at the end of the file is a cut run; anything else is an error.
+      if (found.snapshots.empty() || window.ensure(1)) throw;
+      found.cut = std::string(error.what()).substr(path.size() + 2);
+      break;
+    }
+    if (!header) break;
+    if (columns == nullptr || *columns != header->columns)
+      columns = std::make_shared<const std::vector<std::string>>(header->columns);
+    const auto body = skip_body(window);
+    if (!body.found_header) {
+      const auto why = incompleteness(path, *header, body, source.cut());
+      if (!why.empty()) {
+        if (found.snapshots.empty()) throw FormatError("{}: {}", path, why);
+        found.cut = fmt::format("snapshot {}: {}", header->step, why);
+        break;
+      }
+    }
+    auto located = locate(*header, columns);
+    located.bytes = window.offset() - header->offset;
+    for (const auto& [offset, entry] : entries)
+      if (offset <= located.offset) located.checkpoint = entry;
+    if (!found.snapshots.empty() && located.step < found.snapshots.back().step)
+      found.problems.push_back(fmt::format("steps are not in order: {} then {}; sorted by step",
+                                           found.snapshots.back().step, located.step));
+    found.snapshots.push_back(std::move(located));
+    if (body.has_nul && !body.found_header)
+      found.cut = fmt::format(
+          "line {} (offset {}): NUL bytes after the last row (file system lost the tail?)",
+          line_at(path, body.nul), body.nul);
+    if (!body.found_header) break;
+    if (source.compressed() &&
+        (entries.empty() || source.position() > entries.back().first + 4 * ByteWindow::piece))
+      entries.emplace_back(source.position(), source.checkpoint());
+  }
+  if (found.snapshots.empty()) throw FormatError("{}: no \"ITEM:\" found", path);
+  if (found.cut.empty()) found.cut = source.cut();
+  if (!source.trailing().empty()) found.problems.push_back(source.trailing());
+  return found;
+}
+
+// --- reading the rows ------------------------------------------------------------------------------
+
+/// Says what is wrong with a row that could not be read.
+[[noreturn]] void explain_row(const std::string& path, const Header& header, std::string_view row,
+                              std::uint64_t row_index, const ColumnPlan& plan) {
+  const auto line = line_at(path, header.offset) + header.lines + row_index;
+  const auto columns = static_cast<std::int64_t>(header.columns.size());
+  if (row.find('\0') != row.npos) throw FormatError("{}: line {}: NUL byte", path, line);
+  if (row.starts_with("ITEM:"))
+    throw FormatError("{}: line {}: {} particles declared, {} present before {}", path, line,
+                      header.particles, row_index, quote(row));
+  const auto words = count_words(row, std::int64_t{1} << 40);
+  if (words != columns)
+    throw FormatError("{}: line {}: {} values expected (line {}), {} found", path, line, columns,
+                      line_at(path, header.offset) + header.lines - 1, words);
+  std::string_view rest = row;
+  for (int column = 0; column < columns; ++column) {
+    const auto word = next_word(rest);
+    double value = 0;
+    if (std::binary_search(plan.parse.begin(), plan.parse.end(), column) &&
+        !parse_number(word.data(), word.data() + word.size(), value))
+      throw FormatError("{}: line {}, column {}: {} is not a number{}", path, line,
+                        header.columns[static_cast<std::size_t>(column)], quote(word),
+                        word.find_first_of("dD") != word.npos ? " (D exponent)" : "");
+  }
+  throw FormatError("{}: line {}: row cannot be read: {}", path, line, quote(row));
+}
+
+/// Rows into raw columns: raw[k][row] for the k-th column of plan.parse.
+class RowReader {
+ public:
+  RowReader(const ColumnPlan& plan, std::size_t columns, std::vector<std::vector<double>>& raw)
+      : columns_(static_cast<std::int64_t>(columns)), targets_(columns, nullptr), plan_(plan), raw_(raw) {}
+
+  void resize(std::size_t rows) {
+    raw_.resize(std::max(raw_.size(), plan_.parse.size()));
+    for (std::size_t k = 0; k < plan_.parse.size(); ++k) {
+      if (raw_[k].size() < rows) raw_[k].resize(rows);
+      targets_[static_cast<std::size_t>(plan_.parse[k])] = raw_[k].data();
+    }
+  }
+
+  /// False where the row has another count of values, or one of them is not a number.
+  bool read(const char* begin, const char* end, std::size_t row) const {
+    const auto words = for_each_word(begin, end, [&](std::int64_t column, const char* from, const char* to) {
+      if (column >= columns_) return false;
+      double* const target = targets_[static_cast<std::size_t>(column)];
+      return target == nullptr || parse_number(from, to, target[row]);
+    });
+    return words == columns_;
+  }
+
+ private:
+  std::int64_t columns_;
+  std::vector<double*> targets_;  // a column on disk: where its values go, or null
+  const ColumnPlan& plan_;
+  std::vector<std::vector<double>>& raw_;
+};
+
+void compare_twins(const std::string& path, const Header& header, const ColumnPlan& plan,
+                   const std::vector<std::vector<double>>& raw, std::size_t rows) {
+  for (const auto& [first, second] : plan.twins)
+    for (std::size_t row = 0; row < rows; ++row) {
+      const double a = raw[static_cast<std::size_t>(first)][row];
+      const double b = raw[static_cast<std::size_t>(second)][row];
+      if (a == b || (a != a && b != b)) continue;
+      const auto line = line_at(path, header.offset) + header.lines;
+      const auto column = static_cast<std::size_t>(plan.parse[static_cast<std::size_t>(first)]);
+      throw FormatError("{}: line {}: column \"{}\" twice with different values (line {}: {} and {})",
+                        path, line - 1, header.columns[column], line + row, a, b);
+    }
+}
+
+void read(const std::string& path, const Located& where, const Request& request, Snapshot& out,
+          Scratch& scratch) {
+  Source source(path);
+  source.resume(where.checkpoint);
+  source.seek(where.offset);
+  ByteWindow window(source, scratch.bytes);
+  HeaderReader headers(window, path);
+  const auto header = headers.next();
+  if (!header || header->step != where.step || header->particles != where.particles)
+    throw FormatError("{}: offset {}: the file has changed since it was opened", path, where.offset);
+  const auto names_at = [&] {
+    return fmt::format("{}: line {}", path, line_at(path, header->offset) + header->lines - 1);
+  };
+  ColumnPlan plan;
+  try {
+    plan = plan_columns(header->columns, request, "");
+  } catch (const FormatError&) {
+    plan = plan_columns(header->columns, request, names_at());  // the line is worth a second look only now
+  }
+  out.step = header->step;
+  out.time = header->time;
+  out.box = header->box;
+
+  // The declared count is a claim: room grows with the rows that are really there.
+  const auto declared = static_cast<std::size_t>(header->particles);
+  const std::size_t least_row = 2 * header->columns.size();
+  const std::uint64_t most_rows = source.size_bound() / least_row + 1;
+  RowReader rows(plan, header->columns.size(), scratch.raw);
+  std::size_t room = std::min<std::uint64_t>(declared, most_rows);
+  if (source.compressed()) room = std::min<std::size_t>(room, 1U << 16);
+  rows.resize(room);
+
+  std::size_t row = 0;
+  while (row < declared) {
+    const auto* end = static_cast<const char*>(std::memchr(window.begin(), '\n', window.size()));
+    if (end == nullptr) {
+      if (window.size() > ByteWindow::piece / 2 &&
+          count_words({window.begin(), window.size()},
+                      static_cast<std::int64_t>(header->columns.size()) + 1) >
+              static_cast<std::int64_t>(header->columns.size()))
+        explain_row(path, *header, {window.begin(), window.size()}, row, plan);
+      if (window.more()) continue;
+      end = window.end();
+      // Without a line end only the blank that LIGGGHTS writes tells that the last number is whole.
+      if (window.size() == 0 || end[-1] != ' ')
+        throw FormatError("{}: after line {}: {} declared, {} present", path,
+                          line_at(path, header->offset) + header->lines + row - 1, declared, row);
+    }
+    // All whole lines of the window, before it moves on.
+    const char* at = window.begin();
+    while (row < declared && end != nullptr) {
+      if (row == room) rows.resize(room = std::min(2 * room, declared));
+      if (!rows.read(at, end, row)) {
+        if (end == window.end())
+          throw FormatError("{}: line {}: no line end: file is cut", path,
+                            line_at(path, header->offset) + header->lines + row);
+        explain_row(path, *header, {at, static_cast<std::size_t>(end - at)}, row, plan);
+      }
+      ++row;
+      at = end == window.end() ? end : end + 1;
+      end = static_cast<const char*>(
+          std::memchr(at, '\n', static_cast<std::size_t>(window.end() - at)));
+    }
+    window.drop_until(at);
+  }
+  // Behind the last row: the end, blank lines, NUL bytes that scan() has told of, or another snapshot.
+  while (auto line = window.line()) {
+    if (line->find_first_not_of(" \t") == line->npos) continue;
+    if (line->starts_with("ITEM:") && where.bytes != 0) break;
+    if (line->front() == '\0') break;
+    if (line->starts_with("ITEM:"))
+      throw FormatError(
+          "{}: offset {}: holds further snapshots behind the {} particles of step {}; analyse this "
+          "file by itself",
+          path, window.offset(), declared, header->step);
+    throw FormatError("{}: line {}: {} particles declared, more rows found", path,
+                      line_at(path, header->offset) + header->lines + row, declared);
+  }
+  out.particles = declared;
+  out.bytes_read = source.bytes_from_disk();
+  compare_twins(path, *header, plan, scratch.raw, declared);
+  for (std::size_t k = 0; k < plan.parse.size(); ++k) scratch.raw[k].resize(declared);
+  finish_columns(plan, scratch.raw, out, path);
+}
+
+std::string place(const std::string& path, const Located& where, std::size_t row) {
+  Source source(path);
+  source.resume(where.checkpoint);
+  source.seek(where.offset);
+  std::vector<char> buffer;
+  ByteWindow window(source, buffer, 1U << 14);
+  const auto header = HeaderReader(window, path).next();
+  return fmt::format("line {}", line_at(path, where.offset) + (header ? header->lines : 0) + row);
+}
+
+bool matches(std::string_view head) {
+  if (head.starts_with(byte_order_mark)) head.remove_prefix(byte_order_mark.size());
+  while (!head.empty() && (is_blank(head.front()) && head.front() != '\0')) head.remove_prefix(1);
+  return head.starts_with(first_item);
+}
+
+}  // namespace
+
+extern const Form liggghts_text;
+constinit const Form liggghts_text{
+    .name = "dump-text",
+    .description = "LIGGGHTS or LAMMPS text dump (dump custom), plain or gzip",
+    .reference = "https://www.cfdem.com/media/DEM/docu/dump.html",
+    .matches = matches,
+    .scan = scan,
+    .read = read,
+    .place = place,
+};
+
+}  // namespace bedscope::readers

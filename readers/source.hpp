@@ -10,6 +10,8 @@
 
 namespace bedscope::readers {
 
+class Checkpoint;
+
 /// A regular file opened for reading. A gzip file (by its magic bytes, whatever its name) is
 /// decompressed on the way, concatenated members included; offsets are of the decompressed bytes.
 /// Throws FileError for anything that is not a readable regular file, naming the reason.
@@ -24,8 +26,14 @@ class Source {
   /// A gzip stream that ends early gives what it holds; `cut()` then says where.
   std::size_t read(std::span<char> into);
 
-  /// Moves to an offset (forward only for gzip).
+  /// Moves to an offset. Inside gzip this decompresses what lies between (from the start for a step
+  /// back), unless a checkpoint is nearer.
   void seek(std::uint64_t offset);
+
+  /// The state of the decompression at position(), 40 kB, to jump back to later from any Source of
+  /// the same file; null for plain files, which need none.
+  std::shared_ptr<const Checkpoint> checkpoint() const;
+  void resume(const std::shared_ptr<const Checkpoint>& checkpoint);
 
   std::uint64_t position() const;        ///< offset of the next byte
   bool compressed() const;               ///< gzip
@@ -35,6 +43,9 @@ class Source {
   /// An upper bound of the decompressed size: exact for plain files; for gzip the 1032-fold that
   /// deflate can reach at most. Counts in headers are claims; this bounds them.
   std::uint64_t size_bound() const;
+
+  /// The decompressed size: exact for plain files, what the trailer claims for gzip. For estimates.
+  std::uint64_t likely_size() const;
 
   /// Where a gzip stream ends early ("gzip stream ends early at offset 402"), or is followed by
   /// other bytes; empty otherwise. Known once the end was read.
