@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 
 #include "readers/columns.hpp"
@@ -52,7 +53,6 @@ bool gives_columns(const DataArray& array) {
 struct Place {
   const DataArray* array;  // of the first piece with points
   std::size_t component;
-  bool coordinate;
 };
 
 struct FlatColumns {
@@ -60,7 +60,8 @@ struct FlatColumns {
   std::vector<Place> places;
 };
 
-// The columns that a file has: x y z, then those of each array.
+// The columns that a file has: x y z, then those of each array. An array that calls itself x is not
+// offered: the points are what VTK draws.
 FlatColumns flat_columns(const Document& document) {
   FlatColumns flat;
   const Piece* piece = first_with_points(document);
@@ -68,29 +69,32 @@ FlatColumns flat_columns(const Document& document) {
   const DataArray* points = piece->coordinates.empty() ? nullptr : &piece->coordinates.front();
   for (std::size_t c = 0; c < 3; ++c) {
     flat.names.emplace_back(1, "xyz"[c]);
-    flat.places.push_back({points, c, true});
+    flat.places.push_back({points, c});
   }
   for (const DataArray& array : piece->point_data) {
     if (!gives_columns(array)) continue;
-    if (array.components == 1) {
-      flat.names.push_back(array.name);
-      flat.places.push_back({&array, 0, false});
-      continue;
-    }
     const auto names = component_names(array.name, static_cast<int>(array.components));
     for (std::size_t c = 0; c < names.size(); ++c) {
+      if (names[c] == "x" || names[c] == "y" || names[c] == "z") continue;
       flat.names.push_back(names[c]);
-      flat.places.push_back({&array, c, false});
+      flat.places.push_back({&array, c});
     }
   }
   return flat;
 }
 
-// The array of another piece that continues `first`.
-const DataArray& same_array(const Document& document, const Piece& piece, const DataArray& first,
-                            bool coordinate) {
+// The array of `piece` that continues one of the first piece with points. Names may be doubled:
+// then their order counts.
+const DataArray& same_array(const Document& document, const Piece& piece, const DataArray& first) {
+  const Piece& origin = *first_with_points(document);
+  const bool coordinate = &first == origin.coordinates.data();
   const Arrays& arrays = coordinate ? piece.coordinates : piece.point_data;
-  const DataArray* found = coordinate ? &arrays.front() : find(arrays, first.name);
+  const Arrays& others = coordinate ? origin.coordinates : origin.point_data;
+  const auto index = static_cast<std::size_t>(&first - others.data());
+  const DataArray* found = index < arrays.size() && arrays[index].name == first.name
+                               ? &arrays[index]
+                               : find(arrays, first.name);
+  if (coordinate) found = &arrays.front();
   const auto complain = [&](const std::string& text) {
     throw FormatError("{}: line {}: <Piece>: {}", document.path,
                       line_of(document.bytes, piece.position), text);
@@ -163,7 +167,7 @@ std::string describe_grid(const CellKinds& kinds) {
   // Bonds between particles are lines beside one vertex for each point.
   if (vertices + clouds == kinds.cells || vertices == kinds.points) return {};
   if (kinds.types.count(line) && kinds.types.at(line) == kinds.cells) {
-    return fmt::format("{} lines of two points (contacts)", kinds.cells);
+    return fmt::format("contacts (lines of two points: {})", kinds.cells);
   }
   if (kinds.cells == 1 && kinds.points == 8 && kinds.types.count(hexahedron) &&
       kinds.point_arrays == 0) {
@@ -194,8 +198,8 @@ std::string describe(const Document& document, Decoder& decoder) {
   }
   if (kinds.strips > 0) return fmt::format("a surface mesh ({} triangle strips)", kinds.strips);
   if (kinds.lines > 0) {
-    return kinds.pairs ? fmt::format("{} lines of two points (contacts)", kinds.lines)
-                       : fmt::format("{} lines", kinds.lines);
+    return kinds.pairs ? fmt::format("contacts (lines of two points: {})", kinds.lines)
+                       : fmt::format("lines ({})", kinds.lines);
   }
   return {};
 }
@@ -238,9 +242,9 @@ void check_arrays(const Document& document, Decoder& decoder, std::vector<std::s
     if (piece.points == 0) {
       for (const DataArray& array : piece.point_data) {
         if (array.storage == Storage::ascii && !array.text.empty()) {
-          problems.push_back(fmt::format("{}: line {}: array {} holds numbers, but NumberOfPoints is 0",
-                                         document.path, line_of(document.bytes, array.position),
-                                         array.name));
+          problems.push_back(
+              fmt::format("{}: line {}: array {} holds numbers, but NumberOfPoints is 0",
+                          document.path, line_of(document.bytes, array.position), array.name));
         }
       }
       continue;
@@ -249,10 +253,14 @@ void check_arrays(const Document& document, Decoder& decoder, std::vector<std::s
     for (const DataArray& array : piece.point_data) {
       if (array.type != Number::other) {
         decoder.decode(array, piece.points, std::span<double* const>());
+      } else if (array.type_name != "String") {
+        problems.push_back(fmt::format(
+            "{}: line {}: array {}: type '{}' is not a type of numbers, not read", document.path,
+            line_of(document.bytes, array.position), array.name, array.type_name));
       }
     }
     for (const DataArray& array : first->point_data) {
-      if (gives_columns(array)) same_array(document, piece, array, false);
+      if (gives_columns(array)) same_array(document, piece, array);
     }
     check_vertices(document, piece, piece.verts, decoder, problems);
     check_vertices(document, piece, piece.cells, decoder, problems);
@@ -298,7 +306,7 @@ FileScan scan(const std::string& path, bool thorough) {
 // Decodes each array that holds one of the columns to parse, once for each piece.
 void fill_columns(const Document& document, const FlatColumns& flat, const ColumnPlan& plan,
                   Scratch& scratch) {
-  Decoder decoder(document, scratch.text);
+  Decoder decoder(document, scratch.decoded);
   std::array<double*, max_components> columns{};
   for (std::size_t k = 0; k < plan.parse.size();) {
     const Place& place = flat.places[static_cast<std::size_t>(plan.parse[k])];
@@ -314,10 +322,26 @@ void fill_columns(const Document& document, const FlatColumns& flat, const Colum
         columns[flat.places[static_cast<std::size_t>(plan.parse[i])].component] =
             scratch.raw[i].data() + row;
       }
-      const DataArray& array = same_array(document, piece, *place.array, place.coordinate);
+      const DataArray& array = same_array(document, piece, *place.array);
       decoder.decode(array, piece.points, std::span(columns).first(array.components));
       row += piece.points;
     }
+  }
+}
+
+void compare_twins(const std::string& path, const FlatColumns& flat, const ColumnPlan& plan,
+                   const std::vector<std::vector<double>>& raw) {
+  for (const auto& [first, second] : plan.twins) {
+    const std::vector<double>& a = raw[static_cast<std::size_t>(first)];
+    const std::vector<double>& b = raw[static_cast<std::size_t>(second)];
+    const auto same = [](double left, double right) {
+      return left == right || (std::isnan(left) && std::isnan(right));
+    };
+    const auto [at, other] = std::mismatch(a.begin(), a.end(), b.begin(), same);
+    if (at == a.end()) continue;
+    const auto column = static_cast<std::size_t>(plan.parse[static_cast<std::size_t>(first)]);
+    throw FormatError("{}: column \"{}\" twice with different values (point {}: {} and {})", path,
+                      flat.names[column], at - a.begin(), *at, *other);
   }
 }
 
@@ -338,14 +362,18 @@ void read(const std::string& path, const Located& /*where*/, const Request& requ
   scratch.raw.resize(plan.parse.size());
   for (auto& column : scratch.raw) column.resize(out.particles);
   fill_columns(document, flat, plan, scratch);
+  compare_twins(path, flat, plan, scratch.raw);
   finish_columns(plan, scratch.raw, out, path);
 }
 
 }  // namespace
 
 extern const Form vtk_xml;
-const Form vtk_xml = {"vtk-xml", "VTK XML particles, .vtp and .vtu (LIGGGHTS, OpenFOAM, ParaView)",
+const Form vtk_xml = {"vtk-xml",
+                      "VTK XML particles, .vtp and .vtu (LIGGGHTS, OpenFOAM, ParaView)",
                       "https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html",
-                      matches, scan, read};
+                      matches,
+                      scan,
+                      read};
 
 }  // namespace bedscope::readers

@@ -26,7 +26,17 @@ namespace vtk_xml_file {
 
 /// Types of numbers that an array can have; `other` for strings and what is not known.
 enum class Number {
-  int8, uint8, int16, uint16, int32, uint32, int64, uint64, float32, float64, other
+  int8,
+  uint8,
+  int16,
+  uint16,
+  int32,
+  uint32,
+  int64,
+  uint64,
+  float32,
+  float64,
+  other
 };
 std::size_t size_of(Number type);  ///< [bytes], 0 for other
 
@@ -35,7 +45,8 @@ enum class Compressor { none, zlib, lz4, lzma };
 
 /// One <DataArray>, not decoded.
 struct DataArray {
-  std::string name;  ///< "(unnamed)" where the file has Name="" (LIGGGHTS 3.8 writes it for xu yu zu)
+  std::string
+      name;  ///< "(unnamed)" where the file has Name="" (LIGGGHTS 3.8 writes it for xu yu zu)
   std::string type_name;
   Number type = Number::other;
   std::size_t components = 1;
@@ -98,8 +109,9 @@ class Decoder {
   /// it holds and what is expected.
   void decode(const DataArray& array, std::uint64_t tuples, std::span<double* const> columns);
 
-  /// Throws FormatError unless the array can hold that many tuples, without decoding it.
-  void bound(const DataArray& array, std::uint64_t tuples) const;
+  /// Throws FormatError unless the array can hold that many tuples, by its length and its block
+  /// header alone: before any memory is reserved for them.
+  void bound(const DataArray& array, std::uint64_t tuples);
 
   /// All values of an array of one component; `into` is cleared first.
   void decode(const DataArray& array, std::uint64_t tuples, std::vector<double>& into);
@@ -116,9 +128,14 @@ class Decoder {
   class Stored;  // the bytes of one array as they lie in the file
   Stored stored(const DataArray& array) const;
   std::uint64_t checked_size(const DataArray& array, std::uint64_t tuples) const;
+  struct Header {
+    std::uint64_t block_size = 0;  // decoded [bytes]; the sizes of the compressed: block_sizes_
+  };
+  Header read_header(const DataArray& array, Stored& from, std::uint64_t expected);
   std::string_view binary(const DataArray& array, std::uint64_t tuples);
-  std::string_view uncompressed(const DataArray& array, Stored& from, std::uint64_t expected);
-  std::string_view compressed(const DataArray& array, Stored& from, std::uint64_t expected);
+  void decode_ascii(const DataArray& array, std::uint64_t tuples, std::span<double* const> columns);
+  void spread(const DataArray& array, std::string_view bytes, std::uint64_t tuples,
+              std::span<double* const> columns) const;
   void block(const DataArray& array, std::uint64_t index, std::string_view from,
              std::span<char> into) const;
   std::uint64_t word(const DataArray& array, Stored& from);

@@ -22,13 +22,18 @@ namespace {
 
 bool blank(char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r'; }
 
-// The most that a compressor can pack into one byte; counts in headers are claims, this bounds them.
+// The most that a compressor can pack into one byte; counts in headers are claims, this bounds
+// them.
 std::uint64_t packing_bound(Compressor compressor) {
   switch (compressor) {
-    case Compressor::zlib: return 1032;  // zlib.net/zlib_tech.html, "Maximum Compression Factor"
-    case Compressor::lz4: return 255;    // a run grows by at most 255 a byte
-    case Compressor::lzma: return 8192;  // 273 bytes a match of 14 bits that cost 0.022 bit each
-    case Compressor::none: break;
+    case Compressor::zlib:
+      return 1032;  // zlib.net/zlib_tech.html, "Maximum Compression Factor"
+    case Compressor::lz4:
+      return 255;  // a run grows by at most 255 a byte
+    case Compressor::lzma:
+      return 8192;  // 273 bytes a match of 14 bits that cost 0.022 bit each
+    case Compressor::none:
+      break;
   }
   return 1;
 }
@@ -45,17 +50,28 @@ T swapped(T value) {
 template <class F>
 void with_type(Number type, F&& use) {
   switch (type) {
-    case Number::int8: return use(std::int8_t{});
-    case Number::uint8: return use(std::uint8_t{});
-    case Number::int16: return use(std::int16_t{});
-    case Number::uint16: return use(std::uint16_t{});
-    case Number::int32: return use(std::int32_t{});
-    case Number::uint32: return use(std::uint32_t{});
-    case Number::int64: return use(std::int64_t{});
-    case Number::uint64: return use(std::uint64_t{});
-    case Number::float32: return use(float{});
-    case Number::float64: return use(double{});
-    case Number::other: return;
+    case Number::int8:
+      return use(std::int8_t{});
+    case Number::uint8:
+      return use(std::uint8_t{});
+    case Number::int16:
+      return use(std::int16_t{});
+    case Number::uint16:
+      return use(std::uint16_t{});
+    case Number::int32:
+      return use(std::int32_t{});
+    case Number::uint32:
+      return use(std::uint32_t{});
+    case Number::int64:
+      return use(std::int64_t{});
+    case Number::uint64:
+      return use(std::uint64_t{});
+    case Number::float32:
+      return use(float{});
+    case Number::float64:
+      return use(double{});
+    case Number::other:
+      return;
   }
 }
 
@@ -79,7 +95,7 @@ void scatter(std::string_view bytes, std::size_t components, std::uint64_t tuple
 // A token that ends at a blank; whole, a number of type T. VTK reads Float32 as float: a double
 // rounded to float may differ in the last bit.
 template <class T>
-bool parse_number(const char*& at, const char* end, double& value) {
+bool parse_word(const char*& at, const char* end, double& value) {
   using Parsed = std::conditional_t<std::is_same_v<T, float>, float, double>;
   const char* begin = at;
   if (*begin == '+' && end - begin > 1 && begin[1] != '-') ++begin;
@@ -87,10 +103,6 @@ bool parse_number(const char*& at, const char* end, double& value) {
   const auto [stop, error] = fast_float::from_chars(begin, end, parsed);
   if (error == std::errc::invalid_argument || (stop != end && !blank(*stop))) return false;
   value = static_cast<double>(parsed);
-  // "1e999" is no infinity that was written; only text that says inf is.
-  if (std::isinf(value) && std::any_of(begin, stop, [](char c) { return c >= '0' && c <= '9'; })) {
-    return false;
-  }
   if constexpr (std::is_integral_v<T>) {
     const bool inside = value >= static_cast<double>(std::numeric_limits<T>::min()) &&
                         value <= static_cast<double>(std::numeric_limits<T>::max());
@@ -134,7 +146,7 @@ class Decoder::Stored {
   // Why bytes are missing.
   std::string reason() const {
     if (!base64_ || !text_.damaged()) return "the data end before";
-    return fmt::format("byte 0x{:02x} not in the base64 alphabet or out of place",
+    return fmt::format("byte 0x{:02x} not in the base64 alphabet (or a \"=\" out of place)",
                        static_cast<unsigned char>(all_[text_.position()]));
   }
 
@@ -157,7 +169,8 @@ Decoder::Stored Decoder::stored(const DataArray& array) const {
 
 // Bytes of so many tuples once decoded.
 std::uint64_t Decoder::checked_size(const DataArray& array, std::uint64_t tuples) const {
-  if (array.type == Number::other) fail(array, "type '{}' is not a type of numbers", array.type_name);
+  if (array.type == Number::other)
+    fail(array, "type '{}' is not a type of numbers", array.type_name);
   const std::uint64_t one = array.components * size_of(array.type);
   if (array.components > 1'000'000 || tuples > std::numeric_limits<std::int64_t>::max() / one) {
     fail(array, "{} tuples of {} components are more than any file holds", tuples,
@@ -166,39 +179,45 @@ std::uint64_t Decoder::checked_size(const DataArray& array, std::uint64_t tuples
   return one * tuples;
 }
 
-void Decoder::bound(const DataArray& array, std::uint64_t tuples) const {
+void Decoder::bound(const DataArray& array, std::uint64_t tuples) {
   const std::uint64_t expected = checked_size(array, tuples);
   if (array.storage == Storage::ascii) {
     const std::uint64_t numbers = tuples * array.components;
-    if (numbers > 0 && array.text.size() < 2 * numbers - 1) {
-      fail(array, "{} numbers expected, at most {} found", numbers, (array.text.size() + 1) / 2);
-    }
+    const std::uint64_t most = (array.text.size() + 1) / 2;  // a digit and a blank each
+    if (numbers > most) fail(array, "{} numbers expected, at most {} found", numbers, most);
   } else if (expected > 0) {
-    const std::uint64_t left = stored(array).left();
-    if (expected > left * packing_bound(document_.compressor)) {
-      fail(array, "{} bytes expected, at most {} found", expected,
-           left * packing_bound(document_.compressor));
-    }
+    Stored from = stored(array);
+    read_header(array, from, expected);
   }
 }
 
 void Decoder::decode(const DataArray& array, std::uint64_t tuples,
                      std::span<double* const> columns) {
-  if (array.storage != Storage::ascii) {
-    const std::string_view bytes = binary(array, tuples);
-    with_type(array.type, [&](auto type) {
-      using T = decltype(type);
-      document_.swap ? scatter<T, true>(bytes, array.components, tuples, columns)
-                     : scatter<T, false>(bytes, array.components, tuples, columns);
-    });
-    return;
+  if (array.storage == Storage::ascii) {
+    decode_ascii(array, tuples, columns);
+  } else {
+    spread(array, binary(array, tuples), tuples, columns);
   }
+}
+
+void Decoder::spread(const DataArray& array, std::string_view bytes, std::uint64_t tuples,
+                     std::span<double* const> columns) const {
+  with_type(array.type, [&](auto type) {
+    using T = decltype(type);
+    document_.swap ? scatter<T, true>(bytes, array.components, tuples, columns)
+                   : scatter<T, false>(bytes, array.components, tuples, columns);
+  });
+}
+
+void Decoder::decode_ascii(const DataArray& array, std::uint64_t tuples,
+                           std::span<double* const> columns) {
   bound(array, tuples);
   const std::uint64_t numbers = tuples * array.components;
   const char* at = array.text.data();
   const char* const end = at + array.text.size();
   with_type(array.type, [&](auto type) {
     std::size_t component = 0;
+    std::uint64_t row = 0;
     for (std::uint64_t i = 0;; ++i) {
       while (at != end && blank(*at)) ++at;
       if (at == end) {
@@ -207,15 +226,19 @@ void Decoder::decode(const DataArray& array, std::uint64_t tuples,
       }
       if (i == numbers) fail(array, "{} numbers expected, more found", numbers);
       double value = 0;
-      if (!parse_number<decltype(type)>(at, end, value)) {
-        const char* const stop = std::find_if(at, std::min(end, at + 40), blank);
+      if (!parse_word<decltype(type)>(at, end, value)) {
+        const char* const stop =
+            std::find_if(at, at + std::min<std::ptrdiff_t>(end - at, 40), blank);
         fail(array, "number {}: expected {}, found '{}'", i + 1, array.type_name,
              std::string_view(at, static_cast<std::size_t>(stop - at)));
       }
       if (component < columns.size() && columns[component] != nullptr) {
-        columns[component][i / array.components] = value;
+        columns[component][row] = value;
       }
-      if (++component == array.components) component = 0;
+      if (++component == array.components) {
+        component = 0;
+        ++row;
+      }
     }
   });
 }
@@ -223,24 +246,17 @@ void Decoder::decode(const DataArray& array, std::uint64_t tuples,
 void Decoder::decode(const DataArray& array, std::uint64_t tuples, std::vector<double>& into) {
   if (array.components != 1) fail(array, "expected 1 component, found {}", array.components);
   bound(array, tuples);
+  const bool ascii = array.storage == Storage::ascii;
+  const std::string_view bytes = ascii ? std::string_view() : binary(array, tuples);
   into.resize(tuples);
   double* const column = into.data();
-  decode(array, tuples, {&column, 1});
-}
-
-// The bytes of an array in the order of the file; valid until the next call.
-std::string_view Decoder::binary(const DataArray& array, std::uint64_t tuples) {
-  const std::uint64_t expected = checked_size(array, tuples);
-  if (expected == 0 && array.storage == Storage::inline_base64 && array.text.empty()) return {};
-  Stored from = stored(array);
-  if (document_.compressor == Compressor::none) return uncompressed(array, from, expected);
-  return compressed(array, from, expected);
+  ascii ? decode_ascii(array, tuples, {&column, 1}) : spread(array, bytes, tuples, {&column, 1});
 }
 
 std::uint64_t Decoder::word(const DataArray& array, Stored& from) {
   char bytes[8];
   if (from.read(bytes, document_.word) < document_.word) {
-    fail(array, "header of {} bytes expected, {}", document_.word, from.reason());
+    fail(array, "{}: header of {} bytes expected", from.reason(), document_.word);
   }
   if (document_.word == 4) {
     std::uint32_t value;
@@ -252,51 +268,71 @@ std::uint64_t Decoder::word(const DataArray& array, Stored& from) {
   return document_.swap ? swapped(value) : value;
 }
 
-std::string_view Decoder::uncompressed(const DataArray& array, Stored& from,
-                                       std::uint64_t expected) {
-  const std::uint64_t size = word(array, from);
-  if (size != expected) {
-    fail(array, "{} bytes expected ({} x {}), header says {}: header size not plausible, {}",
-         expected, expected / size_of(array.type), array.type_name, size,
-         "header_type, byte_order or data wrong");
+// What stands before the data of an array. All of it is a claim; on return it is bounded by the
+// bytes that are there.
+Decoder::Header Decoder::read_header(const DataArray& array, Stored& from, std::uint64_t expected) {
+  const std::uint64_t numbers = expected / size_of(array.type);
+  if (document_.compressor == Compressor::none) {
+    const std::uint64_t size = word(array, from);
+    if (size != expected) {
+      fail(array, "{} bytes expected ({} x {}), header says {}: header size not plausible ({})",
+           expected, numbers, array.type_name, size, "header_type, byte_order or data wrong");
+    }
+    if (size > from.left()) {
+      fail(array, "header says {} bytes, fewer decoded: at most {} there", size, from.left());
+    }
+    return {};
   }
-  const std::string_view bytes = from.take(size, bytes_);
-  if (bytes.size() < size) {
-    fail(array, "header says {} bytes, {} decoded: {}", size, bytes.size(),
-         from.reason());
-  }
-  return bytes;
-}
-
-std::string_view Decoder::compressed(const DataArray& array, Stored& from,
-                                     std::uint64_t expected) {
   const std::uint64_t blocks = word(array, from);
   const std::uint64_t size = word(array, from);
   const std::uint64_t last = word(array, from);
-  if (expected == 0 && blocks == 0) return {};
   const bool plausible = blocks > 0 && blocks <= from.left() / document_.word && size > 0 &&
                          blocks - 1 <= expected / size && last <= size &&
                          (blocks - 1) * size + (last > 0 ? last : size) == expected;
   if (!plausible) {
-    fail(array, "{} bytes expected ({} x {}), header says {} blocks of {} bytes, the last of {}: {}",
-         expected, expected / size_of(array.type), array.type_name, blocks, size, last,
-         "header size not plausible");
+    fail(array,
+         "{} bytes expected ({} x {}), header says {} blocks of {} bytes, the last of {}: {}",
+         expected, numbers, array.type_name, blocks, size, last, "header size not plausible");
   }
   block_sizes_.resize(blocks);
-  for (std::uint64_t& block_size : block_sizes_) block_size = word(array, from);
-  if (expected > from.left() * packing_bound(document_.compressor)) {
-    fail(array, "{} bytes expected, {} compressed bytes cannot hold them", expected, from.left());
+  std::uint64_t packed = 0;
+  for (std::uint64_t& block_size : block_sizes_) {
+    block_size = word(array, from);
+    if (block_size > from.left()) {
+      fail(array, "header says a block of {} bytes, fewer decoded: at most {} there", block_size,
+           from.left());
+    }
+    packed += block_size;
+  }
+  if (packed > from.left() || expected / packing_bound(document_.compressor) > packed) {
+    fail(array, "{} bytes expected, {} in compressed blocks, {} there", expected, packed,
+         from.left());
+  }
+  return {size};
+}
+
+// The bytes of an array in the order of the file; valid until the next call.
+std::string_view Decoder::binary(const DataArray& array, std::uint64_t tuples) {
+  const std::uint64_t expected = checked_size(array, tuples);
+  if (expected == 0) return {};
+  Stored from = stored(array);
+  const Header header = read_header(array, from, expected);
+  if (document_.compressor == Compressor::none) {
+    const std::string_view bytes = from.take(expected, bytes_);
+    if (bytes.size() < expected) {
+      fail(array, "{}: header says {} bytes, {} decoded", from.reason(), expected, bytes.size());
+    }
+    return bytes;
   }
   if (bytes_.size() < expected) bytes_.resize(expected);
   std::uint64_t done = 0;
-  for (std::uint64_t i = 0; i < blocks; ++i) {
+  for (std::size_t i = 0; i < block_sizes_.size(); ++i) {
     const std::string_view packed = from.take(block_sizes_[i], block_);
     if (packed.size() < block_sizes_[i]) {
-      fail(array, "block {} of {}: header says {} bytes, {} decoded: {}", i + 1, blocks,
-           block_sizes_[i], packed.size(),
-           from.reason());
+      fail(array, "block {} of {}: {}: header says {} bytes, {} decoded", i + 1,
+           block_sizes_.size(), from.reason(), block_sizes_[i], packed.size());
     }
-    const std::uint64_t length = std::min(size, expected - done);
+    const std::uint64_t length = std::min(header.block_size, expected - done);
     block(array, i, packed, {bytes_.data() + done, length});
     done += length;
   }

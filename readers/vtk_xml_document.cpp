@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // From the tags of a VTK XML file to the list of its arrays.
+#include <algorithm>
 #include <bit>
 #include <charconv>
 
@@ -44,11 +45,10 @@ struct NumberName {
   std::size_t size;
 };
 constexpr NumberName number_names[] = {
-    {"Int8", Number::int8, 1},       {"UInt8", Number::uint8, 1},
-    {"Int16", Number::int16, 2},     {"UInt16", Number::uint16, 2},
-    {"Int32", Number::int32, 4},     {"UInt32", Number::uint32, 4},
-    {"Int64", Number::int64, 8},     {"UInt64", Number::uint64, 8},
-    {"Float32", Number::float32, 4}, {"Float64", Number::float64, 8},
+    {"Int8", Number::int8, 1},       {"UInt8", Number::uint8, 1},   {"Int16", Number::int16, 2},
+    {"UInt16", Number::uint16, 2},   {"Int32", Number::int32, 4},   {"UInt32", Number::uint32, 4},
+    {"Int64", Number::int64, 8},     {"UInt64", Number::uint64, 8}, {"Float32", Number::float32, 4},
+    {"Float64", Number::float64, 8},
 };
 
 // One function for each element of the file; each begins after its open tag and ends with its
@@ -65,8 +65,10 @@ class DocumentReader {
       fail("expected <VTKFile>, found <{}>", xml_.name());
     }
     document_.type = attribute("type").value_or("");
+    if (document_.type.empty()) fail("<VTKFile> names no type");
     if (!document_.is_particle_grid()) {
-      if (xml_.next() == XmlReader::Event::open) document_.extent = attribute("WholeExtent").value_or("");
+      if (xml_.next() == XmlReader::Event::open)
+        document_.extent = attribute("WholeExtent").value_or("");
       return std::move(document_);
     }
     read_root_attributes();
@@ -137,8 +139,10 @@ class DocumentReader {
     } else if (compressor == "vtkLZMADataCompressor") {
       document_.compressor = Compressor::lzma;
     } else if (!compressor.empty()) {
-      fail("compressor {} not known (vtkZLibDataCompressor, vtkLZ4DataCompressor and "
-           "vtkLZMADataCompressor are)", compressor);
+      fail(
+          "compressor {} not known (vtkZLibDataCompressor, vtkLZ4DataCompressor and "
+          "vtkLZMADataCompressor are)",
+          compressor);
     }
   }
 
@@ -263,9 +267,9 @@ class DocumentReader {
     const std::size_t begin = all.find_first_not_of(" \t\r\n", xml_.next_position());
     if (begin == std::string_view::npos || all[begin] != '_') {
       fail("<AppendedData>: expected \"_\" before the data, found {}",
-           begin == std::string_view::npos ? "the end of the file"
-                                           : fmt::format("byte 0x{:02x}",
-                                                         static_cast<unsigned char>(all[begin])));
+           begin == std::string_view::npos
+               ? "the end of the file"
+               : fmt::format("byte 0x{:02x}", static_cast<unsigned char>(all[begin])));
     }
     // Raw bytes may hold anything, "<" too: the close tag is the last one of the file.
     const std::size_t end = all.rfind("</AppendedData");
@@ -286,7 +290,7 @@ class DocumentReader {
 // A count is a claim: nothing is reserved for more points than the bytes of the file can hold.
 void bound_points(const Document& document) {
   std::vector<char> buffer;
-  const Decoder decoder(document, buffer);
+  Decoder decoder(document, buffer);
   double claimed = 0;
   for (const Piece& piece : document.pieces) {
     if (piece.points == 0) continue;
@@ -298,7 +302,13 @@ void bound_points(const Document& document) {
     if (points.components != 3) {
       decoder.fail(points, "expected 3 components, found {}", points.components);
     }
-    decoder.bound(points, piece.points);
+    std::vector<const DataArray*> arrays{&points};
+    for (const DataArray& array : piece.point_data) {
+      if (array.type != Number::other) arrays.push_back(&array);
+    }
+    std::sort(arrays.begin(), arrays.end(),  // the first that is wrong in the file is reported
+              [](const auto* a, const auto* b) { return a->position < b->position; });
+    for (const DataArray* array : arrays) decoder.bound(*array, piece.points);
     claimed += static_cast<double>(piece.points);
   }
   // Pieces may share appended bytes, so that each is within its bound but not their sum. A point

@@ -32,9 +32,9 @@ class XmlReader {
   /// Goes on at `offset`, past bytes that are not XML.
   void jump(std::size_t offset) { next_ = offset; }
 
-  std::string_view name() const { return name_; }  ///< of the element opened or closed last
-  std::string_view text() const { return text_; }  ///< of the last text, without leading blanks
-  std::size_t position() const { return at_; }     ///< offset of the last event
+  std::string_view name() const { return name_; }      ///< of the element opened or closed last
+  std::string_view text() const { return text_; }      ///< of the last text, without leading blanks
+  std::size_t position() const { return at_; }         ///< offset of the last event
   std::size_t next_position() const { return next_; }  ///< offset of the first byte after it
   std::size_t depth() const { return open_.size(); }   ///< elements that are open
 
