@@ -15,6 +15,22 @@ struct ClusterImage {
   std::vector<int> labels;        ///< a cell: 0, or Cluster::cluster; cells[lateral] x cells[up]
 };
 
+/// The clusters of one snapshot: 8-connected regions of holdup > threshold with an area of at least
+/// min_area (an exact multiple of the cell counts as reached: 1e-9 relative) and a cell > core.
+///
+///   velocity = sum(phi v) / sum(phi);  major, minor = 4 sqrt(lambda)
+///
+/// lambda: eigenvalues of the region's central second moments, each cell's own width^2/12 included;
+/// a region of equal moments (square, disc) has angle 0. Numbered upwards by centre z, then x, then
+/// first cell. Contours: the outer one first, anticlockwise, then the holes, clockwise; corners
+/// only, the first repeated at the end; where two cells touch by a corner the outline runs through
+/// it twice. Areas of outline minus holes add up to the cluster's.
+/// snapshot and time are the caller's to set, track, track velocity and parents the Tracker's.
+///
+/// Regions are not joined across a periodic seam. Bubbles: give the voidage in place of holdup.
+/// Source of the three thresholds: Carlos Varas et al. (2016).
+/// Shape: cells[lateral] x cells[up], lateral fastest, whatever cells[depth]. Units: [-] and [m/s].
+/// Thread-safe; turns OpenCV's own threads off for the process.
 ClusterImage find_clusters(const Grid& grid, std::span<const double> holdup,
                            std::span<const double> holdup_vx, std::span<const double> holdup_vz,
                            const ClusterThresholds& thresholds);

@@ -11,8 +11,8 @@ namespace bedscope::analysis {
 /// Throws FileError naming path and reason; nothing half-written stays.
 void write_file(const std::filesystem::path& path, std::string_view content);
 
-/// A name beside `path` to write to (for libraries that write files themselves), renamed by commit();
-/// removed again where commit() was not reached.
+/// A name beside `path` to write to (for libraries that write files themselves), renamed by
+/// commit(); removed again where commit() was not reached.
 class OutputFile {
  public:
   explicit OutputFile(std::filesystem::path path);

@@ -58,7 +58,7 @@ struct TemperatureSample {
 };
 
 struct OccurrenceSample {
-  double time = 0;           ///< [s]
+  double time = 0;  ///< [s]
   int clusters = 0;
   double area_fraction = 0;  ///< of the domain's front area [-]
 };
@@ -78,26 +78,27 @@ struct Cluster {
   double holdup = 0, holdup_max = 0;
   double velocity_x = 0, velocity_z = 0;              ///< of its solids, mass-weighted [m/s]
   double track_velocity_x = 0, track_velocity_z = 0;  ///< of its centroid [m/s]; NaN at first sight
-  double major = 0, minor = 0;                        ///< full axes of the ellipse of equal second moments [m]
-  double angle = 0;                                   ///< of the major axis from lateral [rad], (-pi/2, pi/2]
-  std::vector<int> parents;  ///< tracks of the previous snapshot that merged into it or that it split off
+  double major = 0, minor = 0;  ///< full axes of the ellipse of equal second moments [m]
+  double angle = 0;             ///< of the major axis from lateral [rad], (-pi/2, pi/2]
+  std::vector<int>
+      parents;  ///< tracks of the previous snapshot that merged into it or that it split off
   std::vector<std::vector<Point>> contours;  ///< closed polylines along cell faces [m]
 };
 
 /// One snapshot kept whole for the strip of snapshots.
 struct Frame {
-  std::size_t snapshot = 0;  ///< index into RunResult::occurrence
-  double time = 0;           ///< [s]
+  std::size_t snapshot = 0;    ///< index into RunResult::occurrence
+  double time = 0;             ///< [s]
   std::vector<double> holdup;  ///< depth-averaged, cells[lateral] x cells[up], lateral fastest
 };
 
 /// The averaging window.
 struct Window {
-  double from = 0, to = 0;   ///< times of its first and last snapshot [s]
-  std::size_t first = 0;     ///< index of its first snapshot
+  double from = 0, to = 0;  ///< times of its first and last snapshot [s]
+  std::size_t first = 0;    ///< index of its first snapshot
   std::size_t snapshots = 0;
-  bool automatic = false;    ///< chosen by `average = "auto"`
-  bool steady = true;        ///< false where `auto` found no steady part
+  bool automatic = false;  ///< chosen by `average = "auto"`
+  bool steady = true;      ///< false where `auto` found no steady part
 };
 
 /// The thresholds that found the clusters.
@@ -129,12 +130,12 @@ struct RunResult {
   std::vector<Cluster> clusters;             ///< inside the window, by snapshot
   std::vector<Frame> frames;                 ///< a few snapshots of the window, evenly spread
 
-  Estimate mean_holdup;           ///< of the domain, over the window [-]
-  Estimate inventory_mass;        ///< over the window [kg]
-  Estimate mean_occurrence;       ///< clusters a snapshot
-  Estimate bed_voidage;           ///< 1 - solids / bed volume, the bed being twice the mean height [-]
-  double independent_samples = 0; ///< of the mean holdup
-  double outside_fraction = 0;    ///< share of the solids volume outside the domain, in the window
+  Estimate mean_holdup;      ///< of the domain, over the window [-]
+  Estimate inventory_mass;   ///< over the window [kg]
+  Estimate mean_occurrence;  ///< clusters a snapshot
+  Estimate bed_voidage;      ///< 1 - solids / bed volume, the bed being twice the mean height [-]
+  double independent_samples = 0;  ///< of the mean holdup
+  double outside_fraction = 0;     ///< share of the solids volume outside the domain, in the window
   std::uint64_t bytes_read = 0;
   double seconds = 0;
   std::vector<std::string> inputs;    ///< files read, for the hash in the summary

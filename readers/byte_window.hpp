@@ -52,6 +52,9 @@ class ByteWindow {
     return got > 0;
   }
 
+  /// Forgets what the window holds, after source.seek().
+  void restart() { begin_ = end_ = buffer_->data(); }
+
   /// Makes sure that `count` bytes are in the window, unless the file ends before.
   bool ensure(std::size_t count) {
     while (size() < count)

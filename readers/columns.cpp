@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cctype>
+#include <charconv>
 #include <map>
 
 #include "readers/error.hpp"
@@ -22,15 +22,24 @@ struct Spelling {
 // Sources: LIGGGHTS dump.html; `dump atom/vtk` (radii, velocity_lin); LPP (all vectors without
 // index); MFiX .vtp (Diameter, Velocity).
 constexpr std::array spellings{
-    Spelling{"radius", "radius"},        Spelling{"radius", "radii"},
-    Spelling{"radius", "diameter", 0.5}, Spelling{"radius", "Diameter", 0.5},
-    Spelling{"density", "density"},      Spelling{"density", "rho"},
-    Spelling{"vx", "vx"},                Spelling{"vx", "velocity_lin[1]"},
-    Spelling{"vx", "velocity[1]"},       Spelling{"vx", "Velocity[1]"},
-    Spelling{"vy", "vy"},                Spelling{"vy", "velocity_lin[2]"},
-    Spelling{"vy", "velocity[2]"},       Spelling{"vy", "Velocity[2]"},
-    Spelling{"vz", "vz"},                Spelling{"vz", "velocity_lin[3]"},
-    Spelling{"vz", "velocity[3]"},       Spelling{"vz", "Velocity[3]"},
+    Spelling{"radius", "radius"},
+    Spelling{"radius", "radii"},
+    Spelling{"radius", "diameter", 0.5},
+    Spelling{"radius", "Diameter", 0.5},
+    Spelling{"density", "density"},
+    Spelling{"density", "rho"},
+    Spelling{"vx", "vx"},
+    Spelling{"vx", "velocity_lin[1]"},
+    Spelling{"vx", "velocity[1]"},
+    Spelling{"vx", "Velocity[1]"},
+    Spelling{"vy", "vy"},
+    Spelling{"vy", "velocity_lin[2]"},
+    Spelling{"vy", "velocity[2]"},
+    Spelling{"vy", "Velocity[2]"},
+    Spelling{"vz", "vz"},
+    Spelling{"vz", "velocity_lin[3]"},
+    Spelling{"vz", "velocity[3]"},
+    Spelling{"vz", "Velocity[3]"},
 };
 
 /// The last column of that name: LPP and VTK keep the last of doubled ones too.
@@ -76,7 +85,8 @@ ColumnPlan::Output find_coordinate(std::span<const std::string> names, int axis)
 
 ColumnPlan::Output find_column(std::span<const std::string> names, const std::string& wanted) {
   ColumnPlan::Output output;
-  if (wanted == "x" || wanted == "y" || wanted == "z") return find_coordinate(names, wanted[0] - 'x');
+  if (wanted == "x" || wanted == "y" || wanted == "z")
+    return find_coordinate(names, wanted[0] - 'x');
   for (const auto& spelling : spellings) {
     if (spelling.field_name != wanted) continue;
     output.raw[0] = find(names, spelling.on_disk);
@@ -179,8 +189,7 @@ void finish_columns(const ColumnPlan& plan, std::vector<std::vector<double>>& ra
     for (std::size_t other = 0; other < 2; ++other) {
       if (shear[other] == 0) continue;
       const int source = output.raw[other + 1];
-      if (source < 0)
-        throw FormatError("{}: a triclinic box needs all of xs, ys and zs", where);
+      if (source < 0) throw FormatError("{}: a triclinic box needs all of xs, ys and zs", where);
       const auto& fraction = raw[static_cast<std::size_t>(source)];
       for (std::size_t i = 0; i < column.size(); ++i) column[i] += shear[other] * fraction[i];
     }

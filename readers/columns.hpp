@@ -27,7 +27,8 @@ struct ColumnPlan {
 
 /// Finds the columns asked for among `names` (doubled names: the last is taken, and
 /// both are parsed so that the reader can compare them).
-/// `where` ("path: line 9") begins the text of the FormatError for a required column that is absent.
+/// `where` ("path: line 9") begins the text of the FormatError for a required column that is
+/// absent.
 ColumnPlan plan_columns(std::span<const std::string> names, const Request& request,
                         const std::string& where);
 

@@ -33,6 +33,12 @@ class FormatError : public Error {
       : Error(fmt::format(text, std::forward<T>(values)...)) {}
 };
 
+/// A file that ends too early, as a killed run leaves it: normal for the last dump of a series.
+class CutError : public FormatError {
+ public:
+  using FormatError::FormatError;
+};
+
 /// What the user asked for: study file, options, a column that no dump has.
 class InputError : public Error {
  public:

@@ -24,6 +24,8 @@ struct Stranger {
 };
 constexpr std::array strangers{
     Stranger{"version https://git-lfs", "a git-lfs pointer, not data: run git lfs pull"},
+    Stranger{"vtk DataFile", "line 1: expected \"# vtk DataFile Version\""},
+    Stranger{"# vtk", "line 1: expected \"# vtk DataFile Version\""},
     Stranger{"solid ", "an STL mesh, not particles"},
     Stranger{"STL File", "an STL mesh, not particles"},
     Stranger{"<!DOCTYPE html", "an HTML page, not particles"},

@@ -29,17 +29,17 @@ struct Located {
 
 /// What scan() found in one file.
 struct FileScan {
-  std::vector<Located> snapshots;     ///< in the order of the file; only complete ones if `thorough`
-  std::string cut;                    ///< why the last snapshot is incomplete; empty if it is whole
+  std::vector<Located> snapshots;  ///< in the order of the file; only complete ones if `thorough`
+  std::string cut;                 ///< why the last snapshot is incomplete; empty if it is whole
   std::vector<std::string> problems;  ///< things worth a warning, with their place
-  std::string not_particles;          ///< what it is instead ("a triangle mesh"); empty for particles
+  std::string not_particles;  ///< what it is instead ("a triangle mesh"); empty for particles
 };
 
 /// Buffers that a reader re-uses from snapshot to snapshot; one for each thread.
 struct Scratch {
   std::vector<char> bytes;
-  std::vector<char> decoded;
-  std::vector<std::vector<double>> raw;  ///< parsed columns, before plan_columns' last step
+  std::vector<std::vector<double>> raw;  ///< parsed columns, before finish_columns
+  std::vector<std::string> names;  ///< columns of the snapshot before: a guess at the next one's
 };
 
 /// One form of particle dump. All functions are thread-safe and keep no file open.
@@ -58,8 +58,8 @@ struct Form {
 
   /// Reads the columns asked for, and no others, of the snapshot that scan() located.
   /// Throws FormatError (path, place, expected, found) on anything that is not as it should be.
-  void (*read)(const std::string& path, const Located& where, const Request& request,
-               Snapshot& out, Scratch& scratch);
+  void (*read)(const std::string& path, const Located& where, const Request& request, Snapshot& out,
+               Scratch& scratch);
 
   /// Where a particle stands, for messages ("line 13"); null: "point 4".
   std::string (*place)(const std::string& path, const Located& where, std::size_t row) = nullptr;

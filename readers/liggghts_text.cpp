@@ -26,8 +26,7 @@ constexpr std::string_view first_item = "ITEM: ";
 
 std::string quote(std::string_view text) {
   std::string quoted = "\"";
-  for (const char c : text.substr(0, 40))
-    quoted += static_cast<unsigned char>(c) < ' ' ? '?' : c;
+  for (const char c : text.substr(0, 40)) quoted += static_cast<unsigned char>(c) < ' ' ? '?' : c;
   return quoted + (text.size() > 40 ? "...\"" : "\"");
 }
 
@@ -42,8 +41,8 @@ struct Header {
   std::uint64_t lines = 0;   // up to and with "ITEM: ATOMS"
 };
 
-/// Reads the header of a snapshot line by line. The numbers of lines are counted from the snapshot's
-/// first line and turned into the file's only in errors.
+/// Reads the header of a snapshot line by line. The numbers of lines are counted from the
+/// snapshot's first line and turned into the file's only in errors.
 class HeaderReader {
  public:
   HeaderReader(ByteWindow& window, const std::string& path) : window_(window), path_(path) {}
@@ -89,7 +88,8 @@ class HeaderReader {
   template <class... T>
   [[noreturn]] void fail(fmt::format_string<T...> text, T&&... values) const {
     const auto line = line_at(path_, header_.offset) + header_.lines - 1;
-    throw FormatError("{}: line {}: {}", path_, line, fmt::format(text, std::forward<T>(values)...));
+    throw FormatError("{}: line {}: {}", path_, line,
+                      fmt::format(text, std::forward<T>(values)...));
   }
 
  private:
@@ -101,8 +101,10 @@ class HeaderReader {
 
   std::string require_line(const char* expected) {
     const auto line = window_.line();
+    if (!line)
+      throw CutError("{}: line {}: expected {}, found end of file", path_,
+                     line_at(path_, header_.offset) + header_.lines - 1, expected);
     ++header_.lines;
-    if (!line) fail("expected {}, found end of file", expected);
     return std::string(*line);
   }
 
@@ -114,7 +116,8 @@ class HeaderReader {
     bool overflow = false;
     if (!parse_integer(word, value, overflow)) {
       if (overflow) fail("{} does not fit in 64 bits: {}", what, quote(word));
-      if (word.starts_with(first_item) || word.empty()) fail("expected {}, found {}", what, quote(line));
+      if (word.starts_with(first_item) || word.empty())
+        fail("expected {}, found {}", what, quote(line));
       fail("expected an integer ({}), found {}", what, quote(word));
     }
     return value;
@@ -134,7 +137,8 @@ class HeaderReader {
     auto& box = header_.box;
     box.known = true;
     std::vector<std::string_view> words;
-    for (auto word = next_word(flags); !word.empty(); word = next_word(flags)) words.push_back(word);
+    for (auto word = next_word(flags); !word.empty(); word = next_word(flags))
+      words.push_back(word);
     const bool triclinic = !words.empty() && words[0] == "xy";
     if (triclinic && words.size() >= 3) words.erase(words.begin(), words.begin() + 3);
     if (!words.empty() && words[0] == "abc")
@@ -152,7 +156,10 @@ class HeaderReader {
       box.min[axis] = values[0];
       box.max[axis] = values[1];
       if (triclinic) box.tilt[axis] = values[2];
-      if (axis < words.size()) box.periodic[axis] = words[axis].starts_with('p');
+      if (axis < words.size()) {
+        box.periodic[axis] = words[axis].starts_with('p');
+        box.shrink_wrapped |= words[axis].find_first_of("sm") != std::string_view::npos;
+      }
       if (!(box.max[axis] > box.min[axis]))
         fail("box has no width in {}: {} {}", "xyz"[axis], values[0], values[1]);
     }
@@ -163,8 +170,7 @@ class HeaderReader {
     if (header_.particles < 0) fail("\"ITEM: ATOMS\" before \"ITEM: NUMBER OF ATOMS\"");
     for (auto name = next_word(names); !name.empty(); name = next_word(names))
       header_.columns.emplace_back(name);
-    if (header_.columns.empty())
-      fail("\"ITEM: ATOMS\" without column names (LAMMPS before 2010)");
+    if (header_.columns.empty()) fail("\"ITEM: ATOMS\" without column names (LAMMPS before 2010)");
   }
 
   ByteWindow& window_;
@@ -172,16 +178,17 @@ class HeaderReader {
   Header header_;
 };
 
-// --- finding the snapshots of a file ---------------------------------------------------------------
+// --- finding the snapshots of a file
+// ---------------------------------------------------------------
 
 /// Moves the window to the next line that begins with "ITEM:", counting line ends and the first NUL
 /// byte on the way. `last` keeps what the body's last line looks like.
 struct Body {
-  std::uint64_t lines = 0;         // line ends
-  std::uint64_t nul = 0;           // offset of the first NUL byte
+  std::uint64_t lines = 0;  // line ends
+  std::uint64_t nul = 0;    // offset of the first NUL byte
   bool has_nul = false;
   bool found_header = false;
-  std::string tail;                // bytes after the last line end, at the end of the file
+  std::string tail;  // bytes after the last line end, at the end of the file
 };
 
 Body skip_body(ByteWindow& window) {
@@ -193,8 +200,8 @@ Body skip_body(ByteWindow& window) {
     const char* header = nullptr;
     // Rows hold digits; a capital I is rare, so this runs at the speed of memchr.
     while (at < end) {
-      const auto* candidate = static_cast<const char*>(
-          std::memchr(at, 'I', static_cast<std::size_t>(end - at)));
+      const auto* candidate =
+          static_cast<const char*>(std::memchr(at, 'I', static_cast<std::size_t>(end - at)));
       if (candidate == nullptr) break;
       const bool at_line_start = candidate == window.begin() ? line_start : candidate[-1] == '\n';
       if (at_line_start) {
@@ -211,7 +218,8 @@ Body skip_body(ByteWindow& window) {
     }
     const char* stop = header != nullptr ? header : end;
     if (!body.has_nul)
-      if (const void* nul = std::memchr(window.begin(), 0, static_cast<std::size_t>(stop - window.begin()))) {
+      if (const void* nul =
+              std::memchr(window.begin(), 0, static_cast<std::size_t>(stop - window.begin()))) {
         body.has_nul = true;
         body.nul = window.offset(static_cast<const char*>(nul));
       }
@@ -266,8 +274,9 @@ std::string incompleteness(const std::string& path, const Header& header, const 
   if (open_row) {
     const auto words = count_words(body.tail, columns + 1);
     if (words > columns)
-      return fmt::format("line {}: {} values expected, more than {} found; no line end: file is cut",
-                         line, columns, columns);
+      return fmt::format(
+          "line {}: {} values expected, more than {} found; no line end: file is cut", line,
+          columns, columns);
     if (rows + 1 == declared)
       return fmt::format("line {}: {} values expected, {} found; no line end: file is cut", line,
                          columns, words);
@@ -332,9 +341,8 @@ FileScan scan(const std::string& path, bool thorough) {
     std::optional<Header> header;
     try {
       header = headers.next();
-    } catch (const FormatError& error) {
-      // A header that breaks off at the end of the file is a cut run; anything else is an error.
-      if (found.snapshots.empty() || window.ensure(1)) throw;
+    } catch (const CutError& error) {
+      if (found.snapshots.empty()) throw;
       found.cut = std::string(error.what()).substr(path.size() + 2);
       break;
     }
@@ -345,7 +353,7 @@ FileScan scan(const std::string& path, bool thorough) {
     if (!body.found_header) {
       const auto why = incompleteness(path, *header, body, source.cut());
       if (!why.empty()) {
-        if (found.snapshots.empty()) throw FormatError("{}: {}", path, why);
+        if (found.snapshots.empty()) throw CutError("{}: {}", path, why);
         found.cut = fmt::format("snapshot {}: {}", header->step, why);
         break;
       }
@@ -373,7 +381,8 @@ FileScan scan(const std::string& path, bool thorough) {
   return found;
 }
 
-// --- reading the rows ------------------------------------------------------------------------------
+// --- reading the rows
+// ------------------------------------------------------------------------------
 
 /// Says what is wrong with a row that could not be read.
 [[noreturn]] void explain_row(const std::string& path, const Header& header, std::string_view row,
@@ -405,7 +414,10 @@ FileScan scan(const std::string& path, bool thorough) {
 class RowReader {
  public:
   RowReader(const ColumnPlan& plan, std::size_t columns, std::vector<std::vector<double>>& raw)
-      : columns_(static_cast<std::int64_t>(columns)), targets_(columns, nullptr), plan_(plan), raw_(raw) {}
+      : columns_(static_cast<std::int64_t>(columns)),
+        targets_(columns, nullptr),
+        plan_(plan),
+        raw_(raw) {}
 
   void resize(std::size_t rows) {
     raw_.resize(std::max(raw_.size(), plan_.parse.size()));
@@ -417,12 +429,14 @@ class RowReader {
 
   /// False where the row has another count of values, or one of them is not a number.
   bool read(const char* begin, const char* end, std::size_t row) const {
-    const auto words = for_each_word(begin, end, [&](std::int64_t column, const char* from, const char* to) {
-      if (column >= columns_) return false;
-      double* const target = targets_[static_cast<std::size_t>(column)];
-      return target == nullptr || parse_number(from, to, target[row]);
-    });
-    return words == columns_;
+    bool good = true;
+    const auto words =
+        for_each_word(begin, end, [&](std::int64_t column, const char* from, const char* to) {
+          if (column >= columns_) return good = false;
+          double* const target = targets_[static_cast<std::size_t>(column)];
+          return target == nullptr || (good = parse_number(from, to, target[row]));
+        });
+    return good && words == columns_;
   }
 
  private:
@@ -441,8 +455,9 @@ void compare_twins(const std::string& path, const Header& header, const ColumnPl
       if (a == b || (a != a && b != b)) continue;
       const auto line = line_at(path, header.offset) + header.lines;
       const auto column = static_cast<std::size_t>(plan.parse[static_cast<std::size_t>(first)]);
-      throw FormatError("{}: line {}: column \"{}\" twice with different values (line {}: {} and {})",
-                        path, line - 1, header.columns[column], line + row, a, b);
+      throw FormatError(
+          "{}: line {}: column \"{}\" twice with different values (line {}: {} and {})", path,
+          line - 1, header.columns[column], line + row, a, b);
     }
 }
 
@@ -455,7 +470,8 @@ void read(const std::string& path, const Located& where, const Request& request,
   HeaderReader headers(window, path);
   const auto header = headers.next();
   if (!header || header->step != where.step || header->particles != where.particles)
-    throw FormatError("{}: offset {}: the file has changed since it was opened", path, where.offset);
+    throw FormatError("{}: offset {}: the file has changed since it was opened", path,
+                      where.offset);
   const auto names_at = [&] {
     return fmt::format("{}: line {}", path, line_at(path, header->offset) + header->lines - 1);
   };
@@ -463,7 +479,8 @@ void read(const std::string& path, const Located& where, const Request& request,
   try {
     plan = plan_columns(header->columns, request, "");
   } catch (const FormatError&) {
-    plan = plan_columns(header->columns, request, names_at());  // the line is worth a second look only now
+    plan = plan_columns(header->columns, request,
+                        names_at());  // the line is worth a second look only now
   }
   out.step = header->step;
   out.time = header->time;
@@ -511,7 +528,8 @@ void read(const std::string& path, const Located& where, const Request& request,
     }
     window.drop_until(at);
   }
-  // Behind the last row: the end, blank lines, NUL bytes that scan() has told of, or another snapshot.
+  // Behind the last row: the end, blank lines, NUL bytes that scan() has told of, or another
+  // snapshot.
   while (auto line = window.line()) {
     if (line->find_first_not_of(" \t") == line->npos) continue;
     if (line->starts_with("ITEM:") && where.bytes != 0) break;

@@ -13,9 +13,9 @@
 namespace bedscope::readers {
 
 namespace detail {
-inline constexpr std::array<double, 23> power_of_ten{
-    1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
-    1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+inline constexpr std::array<double, 23> power_of_ten{1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                                     1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
+                                                     1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 
 inline bool parse_any(const char* begin, const char* end, double& value) {
   if (begin != end && *begin == '+') ++begin;
@@ -27,8 +27,9 @@ inline bool parse_any(const char* begin, const char* end, double& value) {
 }  // namespace detail
 
 /// The double nearest to the decimal number in [begin, end); false where that is not a number.
-/// Short decimals (%g prints six digits) take a path that is exact by Clinger (1990): both the digits
-/// and the power of ten are doubles, so one rounding is left. Everything else goes to fast_float.
+/// Short decimals (%g prints six digits) take a path that is exact by Clinger (1990): both the
+/// digits and the power of ten are doubles, so one rounding is left. Everything else goes to
+/// fast_float.
 inline bool parse_number(const char* begin, const char* end, double& value) {
   const char* at = begin;
   const bool negative = at != end && *at == '-';
@@ -77,7 +78,8 @@ inline bool parse_number(const char* begin, const char* end, double& value) {
   return true;
 }
 
-/// An integer; false where the token is not one or does not fit in 64 bits (`overflow` tells which).
+/// An integer; false where the token is not one or does not fit in 64 bits (`overflow` tells
+/// which).
 inline bool parse_integer(std::string_view token, std::int64_t& value, bool& overflow) {
   const bool negative = token.starts_with('-');
   if (negative || token.starts_with('+')) token.remove_prefix(1);
@@ -87,7 +89,8 @@ inline bool parse_integer(std::string_view token, std::int64_t& value, bool& ove
   for (const char c : token) {
     const auto digit = static_cast<unsigned char>(c) - unsigned{'0'};
     if (digit > 9) return false;
-    if (magnitude > (static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max()) - digit) / 10)
+    if (magnitude >
+        (static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max()) - digit) / 10)
       overflow = true;
     magnitude = magnitude * 10 + digit;
   }

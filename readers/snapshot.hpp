@@ -19,6 +19,7 @@ struct Box {
   std::array<double, 3> min{}, max{};
   std::array<double, 3> tilt{};  ///< xy, xz, yz; min and max are then the bounding box
   std::array<bool, 3> periodic{};
+  bool shrink_wrapped = false;  ///< follows the particles (boundary s or m), so it moves by itself
   bool known = false;
 
   bool operator==(const Box&) const = default;

@@ -19,7 +19,7 @@ namespace bedscope::readers {
 namespace {
 
 constexpr std::size_t gzip_input = 1 << 16;
-constexpr int gzip_window = 15 + 16;        // the largest window, gzip framing
+constexpr int gzip_window = 15 + 16;           // the largest window, gzip framing
 constexpr std::uint64_t deflate_limit = 1032;  // deflate cannot expand a byte to more than this
 
 bool is_gzip(const unsigned char* bytes, std::size_t count) {
@@ -108,8 +108,7 @@ struct Source::Impl {
     if (stream.avail_in < 2) {  // keep what there is and look further
       const std::size_t kept = stream.avail_in;
       std::memmove(input.data(), stream.next_in, kept);
-      const auto got =
-          read_disk(reinterpret_cast<char*>(input.data()) + kept, input.size() - kept);
+      const auto got = read_disk(reinterpret_cast<char*>(input.data()) + kept, input.size() - kept);
       input_offset += got;
       stream.next_in = input.data();
       stream.avail_in = static_cast<uInt>(kept + got);
@@ -156,10 +155,11 @@ Source::Source(const std::string& path) : impl_(std::make_unique<Impl>()) {
   impl_->file = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   if (impl_->file < 0) {
     const int reason = errno;
-    throw FileError("{}: {}", path, reason == ENOENT   ? "no such file"
-                                    : reason == EACCES ? "permission denied"
-                                    : reason == ELOOP  ? "too many levels of symbolic links"
-                                                       : std::strerror(reason));
+    throw FileError("{}: {}", path,
+                    reason == ENOENT   ? "no such file"
+                    : reason == EACCES ? "permission denied"
+                    : reason == ELOOP  ? "too many levels of symbolic links"
+                                       : std::strerror(reason));
   }
   struct stat status {};
   if (::fstat(impl_->file, &status) != 0) throw FileError("{}: {}", path, std::strerror(errno));
@@ -201,9 +201,8 @@ void Source::seek(std::uint64_t offset) {
 
 std::shared_ptr<const Checkpoint> Source::checkpoint() const {
   if (!impl_->compressed || impl_->stream_ended) return nullptr;
-  auto made =
-      std::make_shared<const Checkpoint>(impl_->stream, impl_->input_offset - impl_->stream.avail_in,
-                                         impl_->position);
+  auto made = std::make_shared<const Checkpoint>(
+      impl_->stream, impl_->input_offset - impl_->stream.avail_in, impl_->position);
   return made->good ? made : nullptr;
 }
 
@@ -234,8 +233,8 @@ std::uint64_t Source::size_bound() const {
 std::uint64_t Source::likely_size() const {
   if (!impl_->compressed) return impl_->size;
   std::array<unsigned char, 4> trailer{};  // size modulo 2^32 of the last member, little-endian
-  if (impl_->size < 18 || ::pread(impl_->file, trailer.data(), 4,
-                                  static_cast<off_t>(impl_->size - 4)) != 4)
+  if (impl_->size < 18 ||
+      ::pread(impl_->file, trailer.data(), 4, static_cast<off_t>(impl_->size - 4)) != 4)
     return 0;
   std::uint64_t size = 0;
   for (std::size_t i = 0; i < 4; ++i) size |= std::uint64_t{trailer[i]} << (8 * i);

@@ -35,9 +35,9 @@ class Source {
   std::shared_ptr<const Checkpoint> checkpoint() const;
   void resume(const std::shared_ptr<const Checkpoint>& checkpoint);
 
-  std::uint64_t position() const;        ///< offset of the next byte
-  bool compressed() const;               ///< gzip
-  std::uint64_t bytes_from_disk() const; ///< read so far
+  std::uint64_t position() const;         ///< offset of the next byte
+  bool compressed() const;                ///< gzip
+  std::uint64_t bytes_from_disk() const;  ///< read so far
   const std::string& path() const;
 
   /// An upper bound of the decompressed size: exact for plain files; for gzip the 1032-fold that
@@ -60,7 +60,8 @@ class Source {
 /// The first bytes of a file, decompressed; fewer than `count` only where the file is shorter.
 std::string read_head(const std::string& path, std::size_t count = 4096);
 
-/// The number (from 1) of the line that holds the byte at `offset`. Reads the file: for errors only.
+/// The number (from 1) of the line that holds the byte at `offset`. Reads the file: for errors
+/// only.
 std::uint64_t line_at(const std::string& path, std::uint64_t offset);
 
 }  // namespace bedscope::readers

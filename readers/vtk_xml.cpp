@@ -34,7 +34,7 @@ std::string_view read_all(Source& source, std::vector<char>& buffer) {
     if (length < buffer.size()) break;
     buffer.resize(2 * buffer.size());
   }
-  if (!source.cut().empty()) throw FormatError("{}: {}", source.path(), source.cut());
+  if (!source.cut().empty()) throw CutError("{}: {}", source.path(), source.cut());
   return {buffer.data(), length};
 }
 
@@ -230,9 +230,8 @@ void check_vertices(const Document& document, const Piece& piece, const CellGrou
     }
   }
   if (named != piece.points) {
-    problems.push_back(fmt::format("{}: line {}: {} points, the cells name {}; all points are read",
-                                   document.path, line_of(document.bytes, piece.position),
-                                   piece.points, named));
+    problems.push_back(fmt::format("line {}: {} points, the cells name {}; all points are read",
+                                   line_of(document.bytes, piece.position), piece.points, named));
   }
 }
 
@@ -242,9 +241,8 @@ void check_arrays(const Document& document, Decoder& decoder, std::vector<std::s
     if (piece.points == 0) {
       for (const DataArray& array : piece.point_data) {
         if (array.storage == Storage::ascii && !array.text.empty()) {
-          problems.push_back(
-              fmt::format("{}: line {}: array {} holds numbers, but NumberOfPoints is 0",
-                          document.path, line_of(document.bytes, array.position), array.name));
+          problems.push_back(fmt::format("line {}: array {} holds numbers, but NumberOfPoints is 0",
+                                         line_of(document.bytes, array.position), array.name));
         }
       }
       continue;
@@ -254,9 +252,9 @@ void check_arrays(const Document& document, Decoder& decoder, std::vector<std::s
       if (array.type != Number::other) {
         decoder.decode(array, piece.points, std::span<double* const>());
       } else if (array.type_name != "String") {
-        problems.push_back(fmt::format(
-            "{}: line {}: array {}: type '{}' is not a type of numbers, not read", document.path,
-            line_of(document.bytes, array.position), array.name, array.type_name));
+        problems.push_back(
+            fmt::format("line {}: array {}: type '{}' is not a type of numbers, not read",
+                        line_of(document.bytes, array.position), array.name, array.type_name));
       }
     }
     for (const DataArray& array : first->point_data) {
@@ -277,19 +275,19 @@ bool matches(std::string_view head) {
 }
 
 FileScan scan(const std::string& path, bool thorough) {
-  std::vector<char> buffer, decoded;
+  std::vector<char> buffer;
   Source source(path);
   const Document document = parse_document(read_all(source, buffer), path);
-  Decoder decoder(document, decoded);
+  Decoder decoder(document);
   FileScan found;
   found.not_particles = describe(document, decoder);
   if (!found.not_particles.empty()) return found;
   if (thorough) check_arrays(document, decoder, found.problems);
   const std::string_view rest = trimmed(document.bytes.substr(document.end));
   if (!rest.empty()) {
-    found.problems.push_back(fmt::format("{}: {} bytes after </VTKFile>", path, rest.size()));
+    found.problems.push_back(fmt::format("{} bytes after </VTKFile>", rest.size()));
   }
-  if (!source.trailing().empty()) found.problems.push_back(path + ": " + source.trailing());
+  if (!source.trailing().empty()) found.problems.push_back(source.trailing());
 
   Located snapshot;
   snapshot.time = document.time;
@@ -306,7 +304,7 @@ FileScan scan(const std::string& path, bool thorough) {
 // Decodes each array that holds one of the columns to parse, once for each piece.
 void fill_columns(const Document& document, const FlatColumns& flat, const ColumnPlan& plan,
                   Scratch& scratch) {
-  Decoder decoder(document, scratch.decoded);
+  Decoder decoder(document);
   std::array<double*, max_components> columns{};
   for (std::size_t k = 0; k < plan.parse.size();) {
     const Place& place = flat.places[static_cast<std::size_t>(plan.parse[k])];

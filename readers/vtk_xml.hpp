@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -97,12 +98,26 @@ struct Document {
 /// than the bytes of the file can hold.
 Document parse_document(std::string_view bytes, const std::string& path);
 
+/// Memory that is not cleared before it is written to, and that only grows.
+class Buffer {
+ public:
+  char* reserve(std::size_t size) {
+    if (size > size_) {
+      bytes_.reset(new char[size]);  // left uninitialised
+      size_ = size;
+    }
+    return bytes_.get();
+  }
+
+ private:
+  std::unique_ptr<char[]> bytes_;
+  std::size_t size_ = 0;
+};
+
 /// Decodes arrays of one document. Not thread-safe: it owns buffers.
 class Decoder {
  public:
-  /// `buffer` takes the decoded bytes of one array at a time.
-  Decoder(const Document& document, std::vector<char>& buffer)
-      : document_(document), bytes_(buffer) {}
+  explicit Decoder(const Document& document) : document_(document) {}
 
   /// Writes component c of `tuples` tuples to columns[c], unless that is null. Checks the whole
   /// array in any case. Throws FormatError for every difference between what the array says, what
@@ -141,8 +156,8 @@ class Decoder {
   std::uint64_t word(const DataArray& array, Stored& from);
 
   const Document& document_;
-  std::vector<char>& bytes_;
-  std::vector<char> block_;  ///< base64 decoded, still compressed
+  Buffer bytes_;  // of the array that was decoded last
+  Buffer block_;  // out of base64, still compressed
   std::vector<std::uint64_t> block_sizes_;
 };
 

@@ -121,15 +121,15 @@ class Decoder::Stored {
       : all_(bytes), raw_(bytes), text_(bytes), base64_(base64) {}
 
   // The next bytes; fewer where they end before.
-  std::string_view take(std::uint64_t count, std::vector<char>& buffer) {
+  std::string_view take(std::uint64_t count, Buffer& buffer) {
     count = std::min(count, left());
     if (!base64_) {
       const std::string_view taken = raw_.substr(0, count);
       raw_.remove_prefix(count);
       return taken;
     }
-    if (buffer.size() < count) buffer.resize(count);
-    return {buffer.data(), text_.read(buffer.data(), count)};
+    char* const decoded = buffer.reserve(count);
+    return {decoded, text_.read(decoded, count)};
   }
 
   // Reads straight to where the bytes are wanted.
@@ -324,7 +324,7 @@ std::string_view Decoder::binary(const DataArray& array, std::uint64_t tuples) {
     }
     return bytes;
   }
-  if (bytes_.size() < expected) bytes_.resize(expected);
+  char* const decoded = bytes_.reserve(expected);
   std::uint64_t done = 0;
   for (std::size_t i = 0; i < block_sizes_.size(); ++i) {
     const std::string_view packed = from.take(block_sizes_[i], block_);
@@ -333,10 +333,10 @@ std::string_view Decoder::binary(const DataArray& array, std::uint64_t tuples) {
            block_sizes_.size(), from.reason(), block_sizes_[i], packed.size());
     }
     const std::uint64_t length = std::min(header.block_size, expected - done);
-    block(array, i, packed, {bytes_.data() + done, length});
+    block(array, i, packed, {decoded + done, length});
     done += length;
   }
-  return {bytes_.data(), expected};
+  return {decoded, expected};
 }
 
 void Decoder::block(const DataArray& array, std::uint64_t index, std::string_view from,

@@ -274,8 +274,8 @@ class DocumentReader {
     // Raw bytes may hold anything, "<" too: the close tag is the last one of the file.
     const std::size_t end = all.rfind("</AppendedData");
     if (end == std::string_view::npos || end < begin) {
-      throw FormatError("{}: XML ends inside <AppendedData> of line {}: file is cut after {} bytes",
-                        document_.path, line_of(all, xml_.position()), all.size());
+      throw CutError("{}: XML ends inside <AppendedData> of line {}: file is cut after {} bytes",
+                     document_.path, line_of(all, xml_.position()), all.size());
     }
     document_.appended = all.substr(begin + 1, end - begin - 1);
     xml_.jump(end);
@@ -289,8 +289,7 @@ class DocumentReader {
 
 // A count is a claim: nothing is reserved for more points than the bytes of the file can hold.
 void bound_points(const Document& document) {
-  std::vector<char> buffer;
-  Decoder decoder(document, buffer);
+  Decoder decoder(document);
   double claimed = 0;
   for (const Piece& piece : document.pieces) {
     if (piece.points == 0) continue;
@@ -348,9 +347,8 @@ Document parse_document(std::string_view bytes, const std::string& path) {
   Document document = reader.read();
   bound_points(document);
   if (const auto time = reader.time_array()) {
-    std::vector<char> buffer;
     std::vector<double> values;
-    Decoder decoder(document, buffer);
+    Decoder decoder(document);
     const std::uint64_t tuples = time->tuples.value_or(1);
     if (time->components == 1 && tuples > 0) {
       decoder.decode(*time, tuples, values);

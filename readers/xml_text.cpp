@@ -128,6 +128,7 @@ XmlReader::Event XmlReader::next() {
     const std::string_view tag = all_.substr(first, 9);
     if (pass_markup("<!--", "-->") || pass_markup("<?", "?>")) continue;
     if (tag == "<!DOCTYPE") fail(first, "DOCTYPE is not accepted");
+    if (tag.size() < 4 && all_.ends_with(tag)) fail_at_end();
     if (tag.starts_with("<!")) fail(first, "'{}' is not accepted", tag);
     if (tag.starts_with("</")) {
       next_ = first + 2;
@@ -152,7 +153,9 @@ void XmlReader::skip_element() {
 bool XmlReader::pass_markup(std::string_view begin, std::string_view end) {
   if (all_.substr(at_, begin.size()) != begin) return false;
   const std::size_t stop = all_.find(end, at_ + begin.size());
-  if (stop == std::string_view::npos) fail(at_, "XML ends inside '{}'", begin);
+  if (stop == std::string_view::npos) {
+    throw CutError("{}: XML ends inside '{}'", place(at_), begin);
+  }
   next_ = stop + end.size();
   return true;
 }
@@ -228,11 +231,12 @@ void XmlReader::skip_blanks() {
 }
 
 void XmlReader::fail_at_end() const {
-  if (open_.empty()) fail(all_.size(), "XML ends before its first element");
+  const std::string end = place(all_.size());
+  if (open_.empty()) throw CutError("{}: XML ends before its first element is whole", end);
   const Element& last = open_.back();
-  fail(all_.size(), "XML ends inside <{}{}> of line {}", shown(last.name),
-       last.label.empty() ? "" : fmt::format(" Name=\"{}\"", shown(last.label)),
-       line_of(all_, last.at));
+  throw CutError("{}: XML ends inside <{}{}> of line {}", end, shown(last.name),
+                 last.label.empty() ? "" : fmt::format(" Name=\"{}\"", shown(last.label)),
+                 line_of(all_, last.at));
 }
 
 }  // namespace bedscope::readers

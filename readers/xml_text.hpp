@@ -15,7 +15,7 @@
 namespace bedscope::readers {
 
 /// Walks over a text that must outlive it. All functions throw FormatError ("path: line 7: ...")
-/// where the text is not well-formed or ends too early.
+/// where the text is not well-formed, CutError where it ends too early.
 class XmlReader {
  public:
   enum class Event { open, text, close, end };

@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "analysis/run_setup.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "readers/error.hpp"
+#include "readers/liggghts_log.hpp"
+
+namespace bedscope::analysis {
+namespace {
+
+constexpr double most_cells = 1e8;  // 2.4 GB of sums for one type: a mistyped cell size
+/// Cells of a default grid in particle diameters: the thesis' riser has 2.5 mm for 0.85 mm.
+constexpr double default_cell_in_diameters = 3;
+
+std::array<int, 3> bed_axes(const RunSettings& settings) {
+  return {settings.lateral, 3 - settings.lateral - settings.up, settings.up};
+}
+
+/// What the first snapshot with particles tells; further keys can default to it.
+struct FirstLook {
+  readers::Snapshot snapshot;
+  enum { x, y, z, vx, vy, vz, radius, type, density, mass, temperature };
+  const std::vector<double>& column(std::size_t k) const { return snapshot.columns[k]; }
+};
+
+FirstLook look(const RunSettings& settings, const readers::Series& series) {
+  std::size_t first = 0;
+  while (first + 1 < series.size() && series.located(first).particles == 0) ++first;
+  FirstLook found;
+  readers::Scratch scratch;
+  series.read(first,
+              {{"x"},
+               {"y"},
+               {"z"},
+               {"vx", false},
+               {"vy", false},
+               {"vz", false},
+               {"radius", false},
+               {"type", false},
+               {"density", false},
+               {"mass", false},
+               {settings.temperature_column, settings.temperature_column != "temperature"}},
+              found.snapshot, scratch);
+  return found;
+}
+
+void set_times(const RunSettings& settings, const readers::Series& series,
+               const readers::LiggghtsLog& log, RunSetup& setup) {
+  auto step = settings.time_step;
+  if (!step && log.time_step) {
+    step = log.time_step;
+    if (log.several_time_steps)
+      setup.problems.push_back(fmt::format("{}: several time steps; the last, {} s, is used",
+                                           log.path, *step));
+  }
+  setup.times.reserve(series.size());
+  if (step) {
+    for (std::size_t i = 0; i < series.size(); ++i)
+      setup.times.push_back(static_cast<double>(series.step(i) - settings.step_zero) * *step);
+    setup.half_step = *step / 2;
+    return;
+  }
+  for (std::size_t i = 0; i < series.size() && !std::isnan(series.time(i)); ++i)
+    setup.times.push_back(series.time(i));
+  if (setup.times.size() == series.size()) return;
+  if (settings.time_required)
+    throw InputError(
+        "run \"{}\": time_step is missing: no log.liggghts beside the dumps tells it; expected "
+        "time_step = ... [s a step] in the [[run]]",
+        settings.label);
+  setup.time_known = false;
+  setup.times.clear();
+  for (std::size_t i = 0; i < series.size(); ++i)
+    setup.times.push_back(static_cast<double>(series.step(i)));
+  setup.half_step = 0.5;
+  setup.problems.push_back(
+      "time step unknown (no study, no log.liggghts beside the dumps): times are nan, snapshots "
+      "weigh by their steps");
+}
+
+double mean_radius(const RunSetup& setup, const FirstLook& first) {
+  const auto& radius = first.column(FirstLook::radius);
+  const auto& type = first.column(FirstLook::type);
+  double sum = 0, count = 0;
+  for (std::size_t i = 0; i < first.snapshot.particles; ++i) {
+    const double r = setup.radius_in_dumps
+                         ? radius[i]
+                         : setup.settings.radius.at(type.empty() ? 0 : static_cast<int>(type[i]));
+    if (!(r > 0) || !std::isfinite(r)) continue;
+    sum += r;
+    count += 1;
+  }
+  return count > 0 ? sum / count : readers::unknown;
+}
+
+void set_domain(const readers::Series& series, const FirstLook& first, RunSetup& setup) {
+  const auto& settings = setup.settings;
+  std::array<double, 3> min{}, max{};
+  std::array<bool, 3> periodic = settings.periodic.value_or(std::array<bool, 3>{});
+  if (settings.domain) {
+    min = (*settings.domain)[0];
+    max = (*settings.domain)[1];
+  } else if (const auto& box = series.located(0).box; box.known) {
+    setup.domain_assumed = true;
+    min = box.min;
+    max = box.max;
+    if (!settings.periodic) periodic = box.periodic;
+    setup.problems.push_back("domain assumed: the box of the first dump");
+  } else {
+    setup.domain_assumed = true;
+    const double r = mean_radius(setup, first);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto& x = first.column(axis);
+      double low = INFINITY, high = -INFINITY;
+      for (const double value : x) {
+        if (!std::isfinite(value)) continue;
+        low = std::min(low, value);
+        high = std::max(high, value);
+      }
+      if (!(low <= high))
+        throw InputError("run \"{}\": domain is missing, and no particle tells it; expected "
+                         "domain = {{ min = [...], max = [...] }} [m] in [scene]",
+                         settings.label);
+      min[axis] = low - r;
+      max[axis] = high + r;
+    }
+    setup.problems.push_back("domain assumed: the extent of the particles of the first snapshot");
+  }
+  const auto axes = bed_axes(settings);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto axis = static_cast<std::size_t>(axes[k]);
+    if (!(max[axis] > min[axis]))
+      throw InputError("run \"{}\": domain has no width in {}: expected min < max, found {} and {}",
+                       settings.label, "xyz"[axis], min[axis], max[axis]);
+    setup.grid.min[k] = min[axis];
+    setup.grid.max[k] = max[axis];
+    setup.grid.periodic[k] = periodic[axis];
+  }
+}
+
+void set_cells(const FirstLook& first, RunSetup& setup) {
+  const auto& settings = setup.settings;
+  auto& grid = setup.grid;
+  // Two numbers: lateral and up; three: lateral, depth, up.
+  const auto axis_of = [](std::size_t k, std::size_t count) {
+    return count == 3 ? static_cast<int>(k) : k == 0 ? lateral : up;
+  };
+  if (!settings.cells.empty()) {
+    for (std::size_t k = 0; k < settings.cells.size(); ++k) {
+      if (settings.cells[k] < 1)
+        throw InputError("run \"{}\": cells: expected at least 1, found {}", settings.label,
+                         settings.cells[k]);
+      grid.cells[static_cast<std::size_t>(axis_of(k, settings.cells.size()))] = settings.cells[k];
+    }
+  } else {
+    auto cell = settings.cell;
+    if (cell.empty()) {
+      const double width = 2 * default_cell_in_diameters * mean_radius(setup, first);
+      if (!(width > 0))
+        throw InputError("run \"{}\": cell is missing, and no particle tells a size for it",
+                         settings.label);
+      cell = {width, width};
+      setup.problems.push_back(
+          fmt::format("cell assumed: {} particle diameters", default_cell_in_diameters));
+    }
+    for (std::size_t k = 0; k < cell.size(); ++k) {
+      const int axis = axis_of(k, cell.size());
+      if (!(cell[k] > 0) || !std::isfinite(cell[k]))
+        throw InputError("run \"{}\": cell: expected a size above 0 m, found {}", settings.label,
+                         cell[k]);
+      const double exact = grid.length(axis) / cell[k];
+      if (exact > most_cells)
+        throw InputError("run \"{}\": cell of {} m is too small for a domain of {} m",
+                         settings.label, cell[k], grid.length(axis));
+      grid.cells[static_cast<std::size_t>(axis)] = std::max(1, static_cast<int>(std::lround(exact)));
+      if (!settings.cell.empty() && std::abs(grid.width(axis) / cell[k] - 1) > 1e-6)
+        setup.problems.push_back(
+            fmt::format("cell of {} m does not divide the domain: {:.6g} m is used ({} cells)", cell[k],
+                        grid.width(axis), grid.cells[static_cast<std::size_t>(axis)]));
+    }
+  }
+  const double cells = 1.0 * grid.cells[0] * grid.cells[1] * grid.cells[2];
+  if (cells > most_cells)
+    throw InputError("run \"{}\": a grid of {} cells is beyond the limit of {}", settings.label,
+                     cells, most_cells);
+}
+
+/// Density by type from the column of the first snapshot; the study and the log know it as one value
+/// a type, and so do all dumps that we have seen.
+ByType density_of_columns(const FirstLook& first, const RunSetup& setup, std::vector<std::string>& problems) {
+  ByType found;
+  const bool by_mass = first.column(FirstLook::density).empty();
+  const auto& values = first.column(by_mass ? FirstLook::mass : FirstLook::density);
+  if (values.empty()) return found;
+  const auto& radius = first.column(FirstLook::radius);
+  const auto& type = first.column(FirstLook::type);
+  struct Range {
+    double sum = 0, count = 0, min = INFINITY, max = 0;
+  };
+  std::map<int, Range> ranges;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const int of = type.empty() ? 0 : static_cast<int>(type[i]);
+    const double r = setup.radius_in_dumps ? radius[i] : setup.settings.radius.at(of);
+    const double value =
+        by_mass ? values[i] / (4. / 3. * std::numbers::pi * r * r * r) : values[i];
+    if (!(value > 0) || !std::isfinite(value)) continue;
+    auto& range = ranges[of];
+    range.sum += value;
+    range.count += 1;
+    range.min = std::min(range.min, value);
+    range.max = std::max(range.max, value);
+  }
+  for (const auto& [of, range] : ranges) {
+    found.of_type[of] = range.sum / range.count;
+    if (range.max > range.min * (1 + 1e-4))
+      problems.push_back(fmt::format(
+          "density differs among particles of type {} ({:.6g} to {:.6g} kg/m3): their mean is used",
+          of, range.min, range.max));
+  }
+  if (ranges.size() == 1 && type.empty()) found.all = found.of_type.begin()->second;
+  return found;
+}
+
+void set_density(const readers::Series& series, const readers::LiggghtsLog& log,
+                 const FirstLook& first, RunSetup& setup) {
+  setup.density = setup.settings.density;
+  if (setup.density.given()) return;
+  // In dumps of multi-sphere bodies each row carries the mass of the whole body.
+  const auto& names = series.columns();
+  const bool bodies = std::any_of(names.begin(), names.end(), [](const std::string& name) {
+    return name == "id_multisphere" || name == "mol";
+  });
+  if (!bodies || !first.column(FirstLook::density).empty())
+    setup.density = density_of_columns(first, setup, setup.problems);
+  if (!setup.density.given() && !log.density.empty()) {
+    setup.density.of_type = log.density;
+    setup.problems.push_back(fmt::format("density taken from {}", log.path));
+  }
+  if (!setup.density.given())
+    setup.problems.push_back(
+        "no density (key density, a column, or log.liggghts): masses and mass fluxes are nan");
+}
+
+void set_heights(RunSetup& setup) {
+  const auto& settings = setup.settings;
+  const auto& grid = setup.grid;
+  setup.heights = settings.heights;
+  if (setup.heights.empty())
+    for (const double part : {0.25, 0.5, 0.75})
+      setup.heights.push_back(grid.min[up] + part * grid.length(up));
+  setup.band = settings.band > 0 ? settings.band : 2 * grid.width(up);
+  for (const double height : setup.heights) {
+    std::vector<double> weights(static_cast<std::size_t>(grid.cells[up]));
+    double sum = 0;
+    for (int k = 0; k < grid.cells[up]; ++k) {
+      const double overlap = std::min(grid.face(up, k + 1), height + setup.band / 2) -
+                             std::max(grid.face(up, k), height - setup.band / 2);
+      weights[static_cast<std::size_t>(k)] = std::max(overlap, 0.);
+      sum += std::max(overlap, 0.);
+    }
+    if (!(sum > 0))
+      throw InputError("run \"{}\": heights: {} m lies outside the domain ({} to {} m)",
+                       settings.label, height, grid.min[up], grid.max[up]);
+    for (auto& weight : weights) weight /= sum;
+    setup.band_weights.push_back(std::move(weights));
+  }
+}
+
+}  // namespace
+
+RunSetup set_up(const RunSettings& settings, const readers::Series& series) {
+  RunSetup setup;
+  setup.settings = settings;
+  const auto log = readers::find_log(series.path(0));
+  const auto first = look(settings, series);
+  set_times(settings, series, log, setup);
+
+  setup.radius_in_dumps = !settings.radius.given();
+  if (setup.radius_in_dumps && first.snapshot.particles > 0 && first.column(FirstLook::radius).empty())
+    throw InputError(
+        "run \"{}\": radius is missing: the dumps have none (columns: {}); expected radius = ... "
+        "[m] in [scene]",
+        settings.label, fmt::join(series.columns(), " "));
+  set_domain(series, first, setup);
+  set_cells(first, setup);
+  set_density(series, log, first, setup);
+  set_heights(setup);
+  setup.kernel = make_kernel(settings.mapping, setup.grid);
+
+  const auto axes = bed_axes(settings);
+  const auto name = [&](const char* prefix, int k) {
+    return prefix + std::string(1, "xyz"[axes[static_cast<std::size_t>(k)]]);
+  };
+  setup.has_velocity =
+      !first.column(static_cast<std::size_t>(FirstLook::vx + axes[lateral])).empty() &&
+      !first.column(static_cast<std::size_t>(FirstLook::vx + axes[up])).empty();
+  if (!setup.has_velocity && first.snapshot.particles > 0)
+    setup.problems.push_back("no velocity columns: velocities and mass fluxes are nan");
+  setup.has_temperature = !first.column(FirstLook::temperature).empty();
+  setup.request = {{name("", lateral)},
+                   {name("", depth)},
+                   {name("", up)},
+                   {name("v", lateral), setup.has_velocity},
+                   {name("v", up), setup.has_velocity},
+                   {setup.radius_in_dumps ? "radius" : "no radius needed", setup.radius_in_dumps},
+                   {"type", false},
+                   {"id", false},
+                   {setup.has_temperature ? settings.temperature_column : "no temperature", false}};
+  for (const auto& rule : settings.species) setup.request.push_back({rule.column});
+  return setup;
+}
+
+}  // namespace bedscope::analysis

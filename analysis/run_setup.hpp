@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Settings and dumps brought together: the grid, the columns to read, the times, the densities.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "analysis/mapping.hpp"
+#include "analysis/settings.hpp"
+#include "readers/series.hpp"
+
+namespace bedscope::analysis {
+
+/// Positions of the columns in RunSetup::request; the columns of the rules follow.
+enum Column : std::size_t {
+  column_lateral,
+  column_depth,
+  column_up,
+  column_v_lateral,
+  column_v_up,
+  column_radius,
+  column_type,
+  column_id,
+  column_temperature,
+  column_first_rule
+};
+
+/// All that is constant while the snapshots of a run are read.
+struct RunSetup {
+  RunSettings settings;
+  Grid grid;
+  Kernel kernel = CentreKernel(Grid{});
+  readers::Request request;
+  bool domain_assumed = false;
+  bool has_velocity = true;
+  bool radius_in_dumps = true;
+  bool has_temperature = false;
+
+  std::vector<double> times;  ///< [s]; where no time step is known the steps themselves
+  bool time_known = true;
+  double half_step = 0;       ///< [s] by which the window is widened
+
+  ByType density;             ///< [kg/m3], from the study, a column, or the log
+  std::vector<double> heights;
+  double band = 0;
+  std::vector<std::vector<double>> band_weights;  ///< a height: the share of each layer of cells, sum 1
+  std::vector<std::string> problems;
+};
+
+/// Throws InputError naming the key for whatever is neither in the study nor on disk.
+RunSetup set_up(const RunSettings& settings, const readers::Series& series);
+
+}  // namespace bedscope::analysis

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "analysis/snapshot_products.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace bedscope::analysis {
+namespace {
+
+constexpr std::size_t quantities = 3;  // phi, phi v_lateral, phi v_up
+
+class Mapper {
+ public:
+  Mapper(const RunSetup& setup, const readers::Snapshot& snapshot, SnapshotProduct& out)
+      : setup_(setup), columns_(snapshot.columns), rows_(snapshot.particles), out_(out) {}
+
+  template <class Kernel>
+  void run(const Kernel& kernel) {
+    const double* const x = columns_[column_lateral].data();
+    const double* const y = columns_[column_depth].data();
+    const double* const z = columns_[column_up].data();
+    const double* const vx = data(column_v_lateral);
+    const double* const vz = data(column_v_up);
+    const double* const radius = data(column_radius);
+    const double floor = setup_.grid.min[up];
+    for (std::size_t i = 0; i < rows_; ++i) {
+      const int of = type_of(i);
+      const double r = radius != nullptr ? radius[i] : setup_.settings.radius.at(of);
+      const double u = vx != nullptr ? vx[i] : 0;
+      const double w = vz != nullptr ? vz[i] : 0;
+      if (!std::isfinite(x[i] + y[i] + z[i] + u + w + r)) {  // one test for nan and inf in any
+        out_.flaws.not_finite.add(out_.snapshot, i, id(i));
+        continue;
+      }
+      auto* slot = &slot_of({of, -1});
+      ++slot->particles;
+      if (r <= 0) {
+        out_.flaws.no_size.add(out_.snapshot, i, id(i));
+        continue;
+      }
+      out_.flaws.farthest = std::max({out_.flaws.farthest, std::abs(x[i]), std::abs(y[i]), std::abs(z[i])});
+      const double volume = 4. / 3. * std::numbers::pi * r * r * r;
+      slot->volume += volume;
+      slot->moment += volume * (z[i] - floor);
+      out_.volume += volume;
+      out_.volume_inside += share(kernel, {x[i], y[i], z[i]}, r, u, w, *slot);
+      for (std::size_t rule = 0; rule < setup_.settings.species.size(); ++rule) {
+        if (!setup_.settings.species[rule].holds(columns_[column_first_rule + rule][i])) continue;
+        auto& chosen = slot_of({of, static_cast<int>(rule)});
+        ++chosen.particles;
+        chosen.volume += volume;
+        chosen.moment += volume * (z[i] - floor);
+        share(kernel, {x[i], y[i], z[i]}, r, u, w, chosen);
+      }
+    }
+  }
+
+  void temperatures() {
+    const double* const temperature = data(column_temperature);
+    if (temperature == nullptr) return;
+    const auto first = std::find_if(temperature, temperature + rows_, [](double t) { return std::isfinite(t); });
+    if (first == temperature + rows_) return;
+    out_.temperature_zero = *first;
+    for (std::size_t i = 0; i < rows_; ++i) {
+      if (!std::isfinite(temperature[i])) {
+        ++out_.without_temperature;
+        continue;
+      }
+      const int of = type_of(i);
+      add_temperature(temperature[i], slot_of({of, -1}));
+      for (std::size_t rule = 0; rule < setup_.settings.species.size(); ++rule)
+        if (setup_.settings.species[rule].holds(columns_[column_first_rule + rule][i]))
+          add_temperature(temperature[i], slot_of({of, static_cast<int>(rule)}));
+    }
+  }
+
+ private:
+  const double* data(std::size_t column) const {
+    return columns_[column].empty() ? nullptr : columns_[column].data();
+  }
+  int type_of(std::size_t row) const {
+    const auto& types = columns_[column_type];
+    return types.empty() || !(std::abs(types[row]) < 1e9) ? 0 : static_cast<int>(types[row]);
+  }
+  double id(std::size_t row) const {
+    return columns_[column_id].empty() ? readers::unknown : columns_[column_id][row];
+  }
+
+  SlotProduct& slot_of(SlotKey key) {
+    for (std::size_t s = 0; s < out_.used; ++s)
+      if (out_.slots[s].key == key) return out_.slots[s];
+    if (out_.slots.size() == out_.used) out_.slots.emplace_back();
+    auto& slot = out_.slots[out_.used++];
+    auto fields = std::move(slot.fields);
+    auto profiles = std::move(slot.profiles);
+    slot = {};
+    slot.key = key;
+    slot.fields = std::move(fields);
+    slot.profiles = std::move(profiles);
+    slot.fields.assign(quantities * setup_.grid.size(), 0.);
+    return slot;
+  }
+
+  template <class Kernel>
+  static double share(const Kernel& kernel, const Vec3& centre, double r, double u, double w,
+                      SlotProduct& slot) {
+    double* const fields = slot.fields.data();
+    return kernel.share(centre, r, [=](std::size_t cell, double volume) {
+      double* const q = fields + quantities * cell;
+      q[0] += volume;
+      q[1] += volume * u;
+      q[2] += volume * w;
+    });
+  }
+
+  void add_temperature(double t, SlotProduct& slot) {
+    const double shifted = t - out_.temperature_zero;
+    slot.coldest = slot.with_temperature == 0 ? t : std::min(slot.coldest, t);
+    slot.hottest = slot.with_temperature == 0 ? t : std::max(slot.hottest, t);
+    ++slot.with_temperature;
+    slot.shifted_sum += shifted;
+    slot.shifted_squares += shifted * shifted;
+    if (!setup_.settings.temperature) return;
+    const auto [from, to] = *setup_.settings.temperature;
+    const int bins = setup_.settings.temperature_bins;
+    slot.histogram.resize(static_cast<std::size_t>(bins));
+    const double scaled = (t - from) / (to - from);
+    if (scaled < 0 || scaled > 1) return;
+    const int bin = std::min(static_cast<int>(scaled * bins), bins - 1);  // 1 belongs to the last
+    slot.histogram[static_cast<std::size_t>(bin)] += 1;
+  }
+
+  const RunSetup& setup_;
+  const std::vector<std::vector<double>>& columns_;
+  std::size_t rows_;
+  SnapshotProduct& out_;
+};
+
+/// Volumes to holdups; profiles and depth averages on the way.
+void reduce(const RunSetup& setup, SnapshotProduct& out, ProductScratch& scratch) {
+  const auto& grid = setup.grid;
+  const auto nx = static_cast<std::size_t>(grid.cells[lateral]);
+  const auto ny = static_cast<std::size_t>(grid.cells[depth]);
+  const auto nz = static_cast<std::size_t>(grid.cells[up]);
+  const double per_cell = 1 / grid.cell_volume();
+  const double per_column = 1 / static_cast<double>(ny);
+  out.holdup.assign(nx * nz, 0.);
+  scratch.holdup_vx.assign(nx * nz, 0.);
+  scratch.holdup_vz.assign(nx * nz, 0.);
+  for (std::size_t s = 0; s < out.used; ++s) {
+    auto& slot = out.slots[s];
+    const bool in_total = slot.key.rule < 0;
+    slot.profiles.assign(2 * nz + 2 * nx * setup.heights.size(), 0.);
+    double* q = slot.fields.data();
+    for (std::size_t k = 0; k < nz; ++k) {
+      double layer = 0, layer_v = 0;
+      for (std::size_t j = 0; j < ny; ++j)
+        for (std::size_t i = 0; i < nx; ++i, q += quantities) {
+          for (std::size_t n = 0; n < quantities; ++n) q[n] *= per_cell;
+          layer += q[0];
+          layer_v += q[2];
+          if (!in_total) continue;
+          out.holdup[i + nx * k] += per_column * q[0];
+          scratch.holdup_vx[i + nx * k] += per_column * q[1];
+          scratch.holdup_vz[i + nx * k] += per_column * q[2];
+        }
+      slot.profiles[2 * k] = layer / static_cast<double>(nx * ny);
+      slot.profiles[2 * k + 1] = layer_v / static_cast<double>(nx * ny);
+    }
+    for (std::size_t h = 0; h < setup.heights.size(); ++h) {
+      double* const profile = slot.profiles.data() + 2 * nz + 2 * nx * h;
+      for (std::size_t k = 0; k < nz; ++k) {
+        const double weight = setup.band_weights[h][k] * per_column;
+        if (weight == 0) continue;
+        for (std::size_t j = 0; j < ny; ++j)
+          for (std::size_t i = 0; i < nx; ++i) {
+            const double* const cell = slot.fields.data() + quantities * (i + nx * (j + ny * k));
+            profile[2 * i] += weight * cell[0];
+            profile[2 * i + 1] += weight * cell[2];
+          }
+      }
+    }
+  }
+}
+
+}  // namespace
+
+void make_product(const RunSetup& setup, const readers::Series& series, std::size_t i,
+                  SnapshotProduct& out, ProductScratch& scratch) {
+  out.snapshot = i;
+  out.used = 0;
+  out.volume = out.volume_inside = 0;
+  out.without_temperature = 0;
+  out.flaws = {};
+  out.error = nullptr;
+  series.read(i, setup.request, scratch.snapshot, scratch.reader);
+  out.bytes_read = scratch.snapshot.bytes_read;
+  Mapper mapper(setup, scratch.snapshot, out);
+  std::visit([&](const auto& kernel) { mapper.run(kernel); }, setup.kernel);
+  mapper.temperatures();
+  const auto& ids = scratch.snapshot.columns[column_id];
+  if (!ids.empty()) readers::find_doubled_ids(ids, i, scratch.marks, out.flaws);
+  reduce(setup, out, scratch);
+  out.image = find_clusters(setup.grid, out.holdup, scratch.holdup_vx, scratch.holdup_vz,
+                            setup.settings.clusters);
+}
+
+}  // namespace bedscope::analysis
