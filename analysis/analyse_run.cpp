@@ -76,7 +76,8 @@ void for_each_product(const RunSetup& setup, const readers::Series& series, std:
                                       }) &
             tbb::make_filter<Item*, Item*>(tbb::filter_mode::parallel,
                                            [&](Item* item) {
-                                             make_item(setup, series, item->product.snapshot, *item);
+                                             make_item(setup, series, item->product.snapshot,
+                                                       *item);
                                              return item;
                                            }) &
             tbb::make_filter<Item*, void>(tbb::filter_mode::serial_in_order, [&](Item* item) {
@@ -110,9 +111,9 @@ IndexRange window_of(const RunSetup& setup) {
 /// A weight for every snapshot, 0 outside the window.
 std::vector<double> weights_of(const RunSetup& setup, const IndexRange& window) {
   std::vector<double> weights(setup.times.size(), 0.);
-  const auto inside =
-      time_weights(std::span(setup.times).subspan(window.first, window.count));
-  std::copy(inside.begin(), inside.end(), weights.begin() + static_cast<std::ptrdiff_t>(window.first));
+  const auto inside = time_weights(std::span(setup.times).subspan(window.first, window.count));
+  std::copy(inside.begin(), inside.end(),
+            weights.begin() + static_cast<std::ptrdiff_t>(window.first));
   return weights;
 }
 
@@ -120,8 +121,8 @@ void keep_frames(const RunSetup& setup, const readers::Series& series, RunResult
   const auto count = std::min(result.window.snapshots, most_frames);
   Item item;
   for (std::size_t k = 0; k < count; ++k) {
-    const auto i = result.window.first +
-                   (count == 1 ? 0 : k * (result.window.snapshots - 1) / (count - 1));
+    const auto i =
+        result.window.first + (count == 1 ? 0 : k * (result.window.snapshots - 1) / (count - 1));
     make_product(setup, series, i, item.product, item.scratch);
     result.frames.push_back({i, setup.times[i], item.product.holdup});
   }
@@ -180,12 +181,13 @@ struct LiveAnalysis::State {
   RunSums add_all(const std::vector<double>& weights) {
     const std::size_t all = series->size();
     std::optional<RunSums> complete;
-    for_each_product(*setup, *series, sums->snapshots(), all, threads(), [&](SnapshotProduct& product) {
-      const auto i = product.snapshot;
-      if (i + 1 == all) complete.emplace(*sums);
-      (complete ? *complete : *sums).add(product, weights[i]);
-      if (options.progress) options.progress(i + 1, all);
-    });
+    for_each_product(*setup, *series, sums->snapshots(), all, threads(),
+                     [&](SnapshotProduct& product) {
+                       const auto i = product.snapshot;
+                       if (i + 1 == all) complete.emplace(*sums);
+                       (complete ? *complete : *sums).add(product, weights[i]);
+                       if (options.progress) options.progress(i + 1, all);
+                     });
     return std::move(*complete);
   }
 

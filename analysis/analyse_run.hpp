@@ -11,8 +11,8 @@
 namespace bedscope::analysis {
 
 struct AnalysisOptions {
-  int threads = 0;      ///< 0: all cores; the result does not depend on it, to the bit
-  bool frames = true;   ///< keep some snapshots whole for the strip of snapshots
+  int threads = 0;     ///< 0: all cores; the result does not depend on it, to the bit
+  bool frames = true;  ///< keep some snapshots whole for the strip of snapshots
   std::function<void(std::size_t done, std::size_t all)> progress;
 };
 

@@ -52,7 +52,8 @@ void find_time_step(const readers::LiggghtsLog& log, RunSetup& setup) {
   setup.time_step = setup.settings.time_step;
   if (setup.time_step || !log.time_step) return;
   setup.time_step = log.time_step;
-  setup.problems.push_back(fmt::format("time_step of {} s taken from {}{}", *log.time_step, log.path,
+  setup.problems.push_back(fmt::format("time_step of {} s taken from {}{}", *log.time_step,
+                                       log.path,
                                        log.several_time_steps ? ", the last of several" : ""));
 }
 
@@ -96,9 +97,10 @@ void set_domain(const readers::Series& series, const FirstLook& first, RunSetup&
         high = std::max(high, value);
       }
       if (!(low <= high))
-        throw InputError("run \"{}\": domain is missing, and no particle tells it; expected "
-                         "domain = {{ min = [...], max = [...] }} [m] in [scene]",
-                         settings.label);
+        throw InputError(
+            "run \"{}\": domain is missing, and no particle tells it; expected "
+            "domain = {{ min = [...], max = [...] }} [m] in [scene]",
+            settings.label);
       min[axis] = low - r;
       max[axis] = high + r;
     }
@@ -150,11 +152,12 @@ void set_cells(const FirstLook& first, RunSetup& setup) {
       if (exact > most_cells)
         throw InputError("run \"{}\": cell of {} m is too small for a domain of {} m",
                          settings.label, cell[k], grid.length(axis));
-      grid.cells[static_cast<std::size_t>(axis)] = std::max(1, static_cast<int>(std::lround(exact)));
+      grid.cells[static_cast<std::size_t>(axis)] =
+          std::max(1, static_cast<int>(std::lround(exact)));
       if (!settings.cell.empty() && std::abs(grid.width(axis) / cell[k] - 1) > 1e-6)
         setup.problems.push_back(
-            fmt::format("cell of {} m does not divide the domain: {:.6g} m is used ({} cells)", cell[k],
-                        grid.width(axis), grid.cells[static_cast<std::size_t>(axis)]));
+            fmt::format("cell of {} m does not divide the domain: {:.6g} m is used ({} cells)",
+                        cell[k], grid.width(axis), grid.cells[static_cast<std::size_t>(axis)]));
     }
   }
   const double cells = 1.0 * grid.cells[0] * grid.cells[1] * grid.cells[2];
@@ -163,9 +166,10 @@ void set_cells(const FirstLook& first, RunSetup& setup) {
                      cells, most_cells);
 }
 
-/// Density by type from the column of the first snapshot; the study and the log know it as one value
-/// a type, and so do all dumps that we have seen.
-ByType density_of_columns(const FirstLook& first, const RunSetup& setup, std::vector<std::string>& problems) {
+/// Density by type from the column of the first snapshot; the study and the log know it as one
+/// value a type, and so do all dumps that we have seen.
+ByType density_of_columns(const FirstLook& first, const RunSetup& setup,
+                          std::vector<std::string>& problems) {
   ByType found;
   const bool by_mass = first.column(FirstLook::density).empty();
   const auto& values = first.column(by_mass ? FirstLook::mass : FirstLook::density);
@@ -179,8 +183,7 @@ ByType density_of_columns(const FirstLook& first, const RunSetup& setup, std::ve
   for (std::size_t i = 0; i < values.size(); ++i) {
     const int of = type.empty() ? 0 : static_cast<int>(type[i]);
     const double r = setup.radius_in_dumps ? radius[i] : setup.settings.radius.at(of);
-    const double value =
-        by_mass ? values[i] / (4. / 3. * std::numbers::pi * r * r * r) : values[i];
+    const double value = by_mass ? values[i] / (4. / 3. * std::numbers::pi * r * r * r) : values[i];
     if (!(value > 0) || !std::isfinite(value)) continue;
     auto& range = ranges[of];
     range.sum += value;
@@ -284,7 +287,8 @@ RunSetup set_up(const RunSettings& settings, const readers::Series& series) {
   update_times(setup, series);
 
   setup.radius_in_dumps = !settings.radius.given();
-  if (setup.radius_in_dumps && first.snapshot.particles > 0 && first.column(FirstLook::radius).empty())
+  if (setup.radius_in_dumps && first.snapshot.particles > 0 &&
+      first.column(FirstLook::radius).empty())
     throw InputError(
         "run \"{}\": radius is missing: the dumps have none (columns: {}); expected radius = ... "
         "[m] in [scene]",

@@ -2,6 +2,7 @@
 // Settings and dumps brought together: the grid, the columns to read, the times, the densities.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,7 +30,7 @@ enum Column : std::size_t {
 struct RunSetup {
   RunSettings settings;
   Grid grid;
-  Kernel kernel = CentreKernel(Grid{});
+  std::optional<Kernel> kernel;  ///< set by set_up()
   readers::Request request;
   bool domain_assumed = false;
   bool has_velocity = true;
@@ -41,10 +42,11 @@ struct RunSetup {
   std::optional<double> time_step;  ///< [s], from the study or the log
   double half_step = 0;             ///< [s] by which the window is widened
 
-  ByType density;             ///< [kg/m3], from the study, a column, or the log
+  ByType density;  ///< [kg/m3], from the study, a column, or the log
   std::vector<double> heights;
   double band = 0;
-  std::vector<std::vector<double>> band_weights;  ///< a height: the share of each layer of cells, sum 1
+  std::vector<std::vector<double>>
+      band_weights;  ///< a height: the share of each layer of cells, sum 1
   std::vector<std::string> problems;
 };
 

@@ -13,9 +13,9 @@ namespace bedscope::analysis {
 namespace {
 
 constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
-constexpr int block_power = 4;             // 16 snapshots a block, DESIGN section 1
-constexpr std::size_t kept_blocks = 128;   // of fields, where the window is chosen afterwards
-constexpr std::size_t kept_leaves = 64;    // of profiles: enough for 10 batches, whatever the length
+constexpr int block_power = 4;            // 16 snapshots a block, DESIGN section 1
+constexpr std::size_t kept_blocks = 128;  // of fields, where the window is chosen afterwards
+constexpr std::size_t kept_leaves = 64;   // of profiles: enough for 10 batches, whatever the length
 
 }  // namespace
 
@@ -77,7 +77,8 @@ void RunSums::add(SnapshotProduct& product, double weight) {
                          area / (grid.length(lateral) * grid.length(up))});
   if (weight > 0) {
     tracker_.link(product.image, setup_->time_known ? time : undefined);
-    std::move(product.image.clusters.begin(), product.image.clusters.end(), std::back_inserter(clusters_));
+    std::move(product.image.clusters.begin(), product.image.clusters.end(),
+              std::back_inserter(clusters_));
   }
   flaws_.merge(product.flaws);
   without_temperature_ += product.without_temperature;
@@ -176,8 +177,8 @@ void RunSums::inventory_of(const Species& species, RunResult& result) const {
     row.holdup = volume / grid.volume();
     // The centre of mass; of volume where no density is known (the same for one density).
     const bool by_mass = mass > 0 && std::isfinite(mass);
-    row.mean_height = volume > 0 ? grid.min[up] + (by_mass ? mass_moment / mass : moment / volume)
-                                 : undefined;
+    row.mean_height =
+        volume > 0 ? grid.min[up] + (by_mass ? mass_moment / mass : moment / volume) : undefined;
     result.inventory.push_back(row);
     if (!setup_->has_temperature) continue;
     heat.time = row.time;
@@ -204,7 +205,8 @@ void RunSums::profiles_of(const Species& species, const Window& window, SpeciesR
   std::vector<const WeightedSum*> leaves;
   std::vector<double> weights;
   for (const auto& [number, sum] : profiles_.leaves()) {
-    if (number * profiles_.size() < window.first && setup_->settings.average == std::nullopt) continue;
+    if (number * profiles_.size() < window.first && setup_->settings.average == std::nullopt)
+      continue;
     if (sum.weight <= 0) continue;
     leaves.push_back(&sum);
     weights.push_back(sum.weight);
@@ -231,7 +233,8 @@ void RunSums::profiles_of(const Species& species, const Window& window, SpeciesR
     disagree += mean.disagree;
     const bool moves = setup_->has_velocity;
     profile.velocity_z.push_back(moves ? estimate_ratio(moved, holdup, weights) : Estimate{});
-    const bool finite = std::all_of(flux.begin(), flux.end(), [](double g) { return std::isfinite(g); });
+    const bool finite =
+        std::all_of(flux.begin(), flux.end(), [](double g) { return std::isfinite(g); });
     profile.mass_flux_z.push_back(moves && finite && setup_->density.given()
                                       ? static_cast<Estimate>(estimate_mean(flux, weights))
                                       : Estimate{});
@@ -260,7 +263,8 @@ void RunSums::profiles_of(const Species& species, const Window& window, SpeciesR
         disagree, points));
 }
 
-void RunSums::fields_of(const Species& species, const WeightedSum& sum, SpeciesResult& result) const {
+void RunSums::fields_of(const Species& species, const WeightedSum& sum,
+                        SpeciesResult& result) const {
   const auto cells = setup_->grid.size();
   auto& fields = result.fields;
   fields.holdup.assign(cells, 0);
@@ -296,7 +300,8 @@ void RunSums::fields_of(const Species& species, const WeightedSum& sum, SpeciesR
 void RunSums::pdf_of(const Species& species, const Window& window, SpeciesResult& result) const {
   if (!setup_->has_temperature || !setup_->settings.temperature) return;
   const auto bins = static_cast<std::size_t>(setup_->settings.temperature_bins);
-  const auto sum = histograms_.total(setup_->settings.average ? 0 : window.first / histograms_.size());
+  const auto sum =
+      histograms_.total(setup_->settings.average ? 0 : window.first / histograms_.size());
   std::vector<double> density(bins, 0);
   double all = 0;  // particles with a temperature, inside the range and outside
   for (std::size_t i = window.first; i < window.first + window.snapshots; ++i)
@@ -350,7 +355,8 @@ void RunSums::means_of(const Window& window, RunResult& result) const {
       moment += sample.slots[s].moment;
     }
     mass.push_back(kilograms);
-    // A level bed of height H has its centre at H/2: H = 2 x mean height, whatever the surface does.
+    // A level bed of height H has its centre at H/2: H = 2 x mean height, whatever the surface
+    // does.
     bed.push_back(moment > 0 ? 1 - sample.volume / (area * 2 * moment / sample.volume) : 1);
   }
   const auto mean = estimate_mean(holdup, weights);
@@ -358,15 +364,18 @@ void RunSums::means_of(const Window& window, RunResult& result) const {
   result.independent_samples = mean.independent_samples;
   result.mean_occurrence = estimate_mean(clusters, weights);
   result.bed_voidage = estimate_mean(bed, weights);
-  if (setup_->density.given() && std::all_of(mass.begin(), mass.end(), [](double m) { return std::isfinite(m); }))
+  if (setup_->density.given() &&
+      std::all_of(mass.begin(), mass.end(), [](double m) { return std::isfinite(m); }))
     result.inventory_mass = estimate_mean(mass, weights);
   result.outside_fraction = volume > 0 ? std::max(0., outside / volume) : 0;
   if (mean.few_samples)
-    result.problems.push_back(fmt::format(
-        "mean holdup: the window holds {:.3g} independent samples, too few for its interval to be trusted",
-        mean.independent_samples));
+    result.problems.push_back(
+        fmt::format("mean holdup: the window holds {:.3g} independent samples, too few for its "
+                    "interval to be trusted",
+                    mean.independent_samples));
   if (mean.disagree)
-    result.problems.emplace_back("mean holdup: batch means and autocorrelation time disagree on the error");
+    result.problems.emplace_back(
+        "mean holdup: batch means and autocorrelation time disagree on the error");
   if (result.outside_fraction > 1e-3)
     result.problems.push_back(fmt::format("{:.3g} % of the solids volume lies outside the domain",
                                           100 * result.outside_fraction));
@@ -390,8 +399,8 @@ RunResult RunSums::finish(const readers::Series& series, const Window& window) c
   result.problems.insert(result.problems.end(), setup.problems.begin(), setup.problems.end());
   for (auto& line : flaws_.describe(series)) result.problems.push_back(std::move(line));
   if (without_temperature_ > 0)
-    result.problems.push_back(fmt::format("{} particles without a finite temperature, left out of its means",
-                                          without_temperature_));
+    result.problems.push_back(fmt::format(
+        "{} particles without a finite temperature, left out of its means", without_temperature_));
   if (setup.settings.temperature) {
     result.temperature_from = (*setup.settings.temperature)[0];
     result.temperature_to = (*setup.settings.temperature)[1];
@@ -407,17 +416,19 @@ RunResult RunSums::finish(const readers::Series& series, const Window& window) c
     pdf_of(kind, window, found);
     inventory_of(kind, result);
     if (found.temperature_outside > 0)
-      result.problems.push_back(fmt::format("temperature PDF: {:.3g} % of the particles lie outside its range",
-                                            100 * found.temperature_outside));
+      result.problems.push_back(
+          fmt::format("temperature PDF: {:.3g} % of the particles lie outside its range",
+                      100 * found.temperature_outside));
     result.species.push_back(std::move(found));
   }
   result.occurrence = occurrence_;
   clusters_of(window, result);
   means_of(window, result);
   if (window.automatic && !window.steady)
-    result.problems.push_back(fmt::format(
-        "not steady: no steady part found in the first half of the run; the average starts at {:.6g}",
-        result.window.from));
+    result.problems.push_back(
+        fmt::format("not steady: no steady part found in the first half of the run; the average "
+                    "starts at {:.6g}",
+                    result.window.from));
   result.bytes_read = bytes_read_;
   return result;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The serial end of the analysis: products taken in the order of the series, reduced to short series
-// and to sums over the window.
+// The serial end of the analysis: products taken in the order of the series, reduced to short
+// series and to sums over the window.
 #pragma once
 
 #include <optional>
@@ -19,15 +19,16 @@ class RunSums {
   /// `keep_blocks`: the window is chosen afterwards, so field sums stay apart in blocks.
   RunSums(const RunSetup& setup, bool keep_blocks);
 
-  /// Takes the product of the next snapshot; `weight`: the time it stands for, 0 outside the window.
+  /// Takes the product of the next snapshot; `weight`: the time it stands for, 0 outside the
+  /// window.
   void add(SnapshotProduct& product, double weight);
 
   std::size_t snapshots() const { return samples_.size(); }
   /// The first snapshot of the window that `auto` chooses, rounded up to a block.
   Window choose_window() const;
 
-  /// Averages and their errors over `window` (which must be what the weights were for, or begin at a
-  /// block where blocks were kept), into a result without label, times of work and inputs.
+  /// Averages and their errors over `window` (which must be what the weights were for, or begin at
+  /// a block where blocks were kept), into a result without label, times of work and inputs.
   RunResult finish(const readers::Series& series, const Window& window) const;
 
  private:

@@ -39,7 +39,8 @@ class Mapper {
         out_.flaws.no_size.add(out_.snapshot, i, id(i));
         continue;
       }
-      out_.flaws.farthest = std::max({out_.flaws.farthest, std::abs(x[i]), std::abs(y[i]), std::abs(z[i])});
+      out_.flaws.farthest =
+          std::max({out_.flaws.farthest, std::abs(x[i]), std::abs(y[i]), std::abs(z[i])});
       const double volume = 4. / 3. * std::numbers::pi * r * r * r;
       slot->volume += volume;
       slot->moment += volume * (z[i] - floor);
@@ -59,7 +60,8 @@ class Mapper {
   void temperatures() {
     const double* const temperature = data(column_temperature);
     if (temperature == nullptr) return;
-    const auto first = std::find_if(temperature, temperature + rows_, [](double t) { return std::isfinite(t); });
+    const auto first =
+        std::find_if(temperature, temperature + rows_, [](double t) { return std::isfinite(t); });
     if (first == temperature + rows_) return;
     out_.temperature_zero = *first;
     for (std::size_t i = 0; i < rows_; ++i) {
@@ -197,7 +199,7 @@ void make_product(const RunSetup& setup, const readers::Series& series, std::siz
   series.read(i, setup.request, scratch.snapshot, scratch.reader);
   out.bytes_read = scratch.snapshot.bytes_read;
   Mapper mapper(setup, scratch.snapshot, out);
-  std::visit([&](const auto& kernel) { mapper.run(kernel); }, setup.kernel);
+  std::visit([&](const auto& kernel) { mapper.run(kernel); }, *setup.kernel);
   mapper.temperatures();
   const auto& ids = scratch.snapshot.columns[column_id];
   if (!ids.empty()) readers::find_doubled_ids(ids, i, scratch.marks, out.flaws);
