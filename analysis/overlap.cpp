@@ -24,7 +24,8 @@ double angle(double y, double x) {
                                                   0.78539816339744830962};
   const bool steep = y > x;
   if (steep) std::swap(x, y);
-  const int eighth = static_cast<int>(8.0 * (y / x) + 0.5);
+  const double eighths = 8.0 * (y / x) + 0.5;
+  const int eighth = static_cast<int>(eighths);
   const double k = 0.125 * eighth;
   const double u = (y - k * x) / (x + k * y), v = u * u;
   const double series =
