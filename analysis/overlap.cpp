@@ -9,9 +9,10 @@ namespace bedscope::analysis {
 namespace {
 constexpr double pi = std::numbers::pi;
 
-// atan2(y, x) for x, y >= 0, not both 0: half the time of libm's, and the same bits everywhere.
-// With t = y/x <= 1 and k the eighth nearest to t, atan t = atan k + atan u, |u| <= 1/16, where
-// Taylor's series up to u^13 leaves less than 1e-19.
+// atan2(y, x) for x, y >= 0, not both 0: the same bits everywhere, and a fifth of the exact
+// kernel's time less than with libm's (spheres one cell wide). With t = y/x <= 1 and k the eighth
+// nearest to t, atan t = atan k + atan u, |u| <= 1/16, where Taylor's series up to u^13 leaves less
+// than 1e-19.
 double angle(double y, double x) {
   constexpr std::array<double, 9> atan_of_eighths{0.0,
                                                   0.12435499454676143503,
