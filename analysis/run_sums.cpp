@@ -25,8 +25,9 @@ struct RunSums::Species {
   std::vector<std::size_t> slots;
 };
 
-RunSums::RunSums(const RunSetup& setup, bool keep_blocks)
+RunSums::RunSums(const RunSetup& setup, bool keep_blocks, bool keep_contours)
     : setup_(&setup),
+      keep_contours_(keep_contours),
       fields_(block_power, keep_blocks ? kept_blocks : 2),
       profiles_(0, kept_leaves),
       histograms_(block_power, keep_blocks ? kept_blocks : 2),
@@ -71,6 +72,7 @@ void RunSums::add(SnapshotProduct& product, double weight) {
     cluster.snapshot = i;
     cluster.time = setup_->time_known ? time : undefined;
     area += cluster.area;
+    if (!keep_contours_) cluster.contours = {};
   }
   const auto& grid = setup_->grid;
   occurrence_.push_back({time, static_cast<int>(product.image.clusters.size()),
