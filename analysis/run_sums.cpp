@@ -428,7 +428,12 @@ RunResult RunSums::finish(const readers::Series& series, const Window& window) c
   means_of(window, result);
   if (window.automatic && !window.steady)
     result.problems.push_back(
-        fmt::format("not steady: no steady part found in the first half of the run; the average "
+        samples_.size() < 20
+            ? fmt::format("{} snapshots are too few to tell whether the run is steady",
+                          samples_.size())
+            : fmt::format("not steady: no steady part begins in the first half of the run; the "
+                          "average starts at {:.6g}",
+                          result.window.from)); the average "
                     "starts at {:.6g}",
                     result.window.from));
   result.bytes_read = bytes_read_;
