@@ -282,7 +282,12 @@ TEST(VtkXml, AGzipFileIsReadWithoutBeingAskedFor) {
 
   const std::string packed = bytes_of(file.path());
   const TemporaryFile half(packed.substr(0, packed.size() / 2), "half.vtp.gz");
-  EXPECT_THROW(vtk_xml.scan(half.path(), true), CutError);
+  try {
+    vtk_xml.scan(half.path(), true);
+    ADD_FAILURE() << "half a gzip file was read";
+  } catch (const CutError& error) {
+    EXPECT_NE(std::string(error.what()).find("gzip stream ends early"), std::string::npos);
+  }
 }
 
 TEST(VtkXml, WhatIsNotParticlesIsNamed) {
@@ -376,6 +381,8 @@ TEST(VtkXml, EachErrorNamesThePlaceWhatWasExpectedAndWhatWasFound) {
       {replaced(raw, "Little", "Big"), "header size not plausible"},
       {replaced(raw, "raw", "hex"),
        "<AppendedData>: encoding: expected raw or base64, found 'hex'"},
+      {replaced(raw, "   _", "   #"),
+       "<AppendedData>: expected \"_\" before the data, found byte 0x23"},
       {raw.substr(0, raw.size() - 60), "XML ends inside <AppendedData> of line"},
       {raw.substr(0, raw.find("<AppendedData")) + "</VTKFile>", "the file has no <AppendedData>"},
   };
@@ -414,6 +421,10 @@ TEST(VtkXml, CountsInHeadersAreBoundedBeforeMemoryIsReserved) {
             std::string::npos);
   EXPECT_NE(scan_error(with_blocks({1, 12, 0, 0xFFFFFFFF, 0}, 1)).find("fewer decoded"),
             std::string::npos);
+  // Two blocks that are there each, but not both.
+  EXPECT_NE(
+      scan_error(with_blocks({2, 6, 6, 7, 7, 0, 0}, 1)).find("14 in compressed blocks, 8 there"),
+      std::string::npos);
   EXPECT_NE(scan_error(with_blocks({1}, 1)).find("header of 4 bytes expected"), std::string::npos);
   EXPECT_NE(scan_error(with_blocks({}, 1)).find("offset 0 beyond"), std::string::npos);
 }
@@ -477,7 +488,7 @@ TEST(VtkXml, ACutFileIsNeverTakenForAWholeOne) {
   for (const fs::path& path : containers()) {
     const std::string bytes = bytes_of(path);
     const std::size_t whole = bytes.rfind("</VTKFile>") + 10;
-    for (std::size_t length = 1; length < whole; length += 37 * 16) {
+    for (std::size_t length = 1; length < whole; length += std::size_t{37} * 16) {
       const std::size_t cut = length + 37 * (length / 37 % 16);  // other places in each file
       if (cut >= whole) continue;
       SCOPED_TRACE(path);
@@ -549,9 +560,7 @@ TEST(Base64, EveryLengthInEveryPieceComesBack) {
 }
 
 TEST(Base64, AnythingElseIsDamageAndItsPlaceIsKnown) {
-  for (const std::string text : {"AAAA!AAA", "AAAAA=AA", "AAAA=AAA", "AAAAAA=A",
-                                 "AAAA\xFF"
-                                 "AAA"}) {
+  for (const std::string text : {"AAAA!AAA", "AAAAA=AA", "AAAA=AAA", "AAAAAA=A", "AAAA\303AAA"}) {
     Base64Reader reader(text);
     char buffer[16];
     EXPECT_EQ(reader.read(buffer, 16), 3U) << text;
