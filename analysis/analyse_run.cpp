@@ -1,1 +1,229 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "analysis/analyse_run.hpp"
+
+#include <tbb/global_control.h>
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "analysis/run_sums.hpp"
+#include "readers/error.hpp"
+
+namespace bedscope::analysis {
+namespace {
+
+constexpr std::size_t most_frames = 8;
+
+struct Item {
+  SnapshotProduct product;
+  ProductScratch scratch;
+};
+
+void make_item(const RunSetup& setup, const readers::Series& series, std::size_t i, Item& item) {
+  try {
+    make_product(setup, series, i, item.product, item.scratch);
+  } catch (...) {  // thrown again in the order of the series, whoever met it first
+    item.product.error = std::current_exception();
+  }
+}
+
+/// Computes the products of snapshots [first, last) in parallel and hands them over in order.
+template <class Take>
+void for_each_product(const RunSetup& setup, const readers::Series& series, std::size_t first,
+                      std::size_t last, int threads, Take&& take) {
+  const auto deliver = [&](Item& item) {
+    if (item.product.error) std::rethrow_exception(item.product.error);
+    take(item.product);
+  };
+  if (threads == 1 || last - first < 2) {
+    Item item;
+    for (std::size_t i = first; i < last; ++i) {
+      make_item(setup, series, i, item);
+      deliver(item);
+    }
+    return;
+  }
+  std::vector<std::unique_ptr<Item>> items;
+  std::vector<Item*> idle;
+  std::mutex mutex;
+  std::size_t next = first;
+  const auto tokens = static_cast<std::size_t>(threads) * 2;
+  for (std::size_t k = 0; k < tokens; ++k) {
+    items.push_back(std::make_unique<Item>());
+    idle.push_back(items.back().get());
+  }
+  tbb::task_arena arena(threads);
+  arena.execute([&] {
+    tbb::parallel_pipeline(
+        tokens,
+        tbb::make_filter<void, Item*>(tbb::filter_mode::serial_in_order,
+                                      [&](tbb::flow_control& control) -> Item* {
+                                        if (next == last) {
+                                          control.stop();
+                                          return nullptr;
+                                        }
+                                        const std::lock_guard lock(mutex);
+                                        Item* item = idle.back();
+                                        idle.pop_back();
+                                        item->product.snapshot = next++;
+                                        return item;
+                                      }) &
+            tbb::make_filter<Item*, Item*>(tbb::filter_mode::parallel,
+                                           [&](Item* item) {
+                                             make_item(setup, series, item->product.snapshot,
+                                                       *item);
+                                             return item;
+                                           }) &
+            tbb::make_filter<Item*, void>(tbb::filter_mode::serial_in_order, [&](Item* item) {
+              deliver(*item);
+              const std::lock_guard lock(mutex);
+              idle.push_back(item);
+            }));
+  });
+}
+
+/// Equal spacing (to rounding): then every snapshot weighs the same wherever the window begins.
+bool evenly_spaced(const std::vector<double>& times) {
+  if (times.size() < 3) return true;
+  const double gap = (times.back() - times.front()) / static_cast<double>(times.size() - 1);
+  for (std::size_t i = 1; i < times.size(); ++i)
+    if (std::abs(times[i] - times[i - 1] - gap) > 1e-6 * gap) return false;
+  return true;
+}
+
+IndexRange window_of(const RunSetup& setup) {
+  if (!setup.settings.average) return {0, setup.times.size()};
+  const auto [from, to] = *setup.settings.average;
+  const auto window = select_window(setup.times, from, to, setup.half_step);
+  if (window.count == 0)
+    throw InputError(
+        "run \"{}\": average: no snapshot between {} and {} s; the dumps run from {} to {} s",
+        setup.settings.label, from, to, setup.times.front(), setup.times.back());
+  return window;
+}
+
+/// A weight for every snapshot, 0 outside the window.
+std::vector<double> weights_of(const RunSetup& setup, const IndexRange& window) {
+  std::vector<double> weights(setup.times.size(), 0.);
+  const auto inside = time_weights(std::span(setup.times).subspan(window.first, window.count));
+  std::copy(inside.begin(), inside.end(),
+            weights.begin() + static_cast<std::ptrdiff_t>(window.first));
+  return weights;
+}
+
+void keep_frames(const RunSetup& setup, const readers::Series& series, RunResult& result) {
+  const auto count = std::min(result.window.snapshots, most_frames);
+  Item item;
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto i =
+        result.window.first + (count == 1 ? 0 : k * (result.window.snapshots - 1) / (count - 1));
+    make_product(setup, series, i, item.product, item.scratch);
+    result.frames.push_back({i, setup.times[i], item.product.holdup});
+  }
+}
+
+}  // namespace
+
+struct LiveAnalysis::State {
+  RunSettings settings;
+  AnalysisOptions options;
+  std::optional<readers::Series> series;
+  std::unique_ptr<RunSetup> setup;  // RunSums keep a pointer to it
+  std::optional<RunSums> sums;      // of the snapshots whose weights are final: all but the last
+  RunResult result;
+  double seconds = 0;
+
+  bool is_auto() const { return !settings.average.has_value(); }
+
+  void begin() {
+    setup = std::make_unique<RunSetup>(set_up(settings, *series));
+    sums.emplace(*setup, is_auto(), options.pictures);
+  }
+
+  bool update() {
+    const auto started = std::chrono::steady_clock::now();
+    auto found = readers::Series::open(settings.particles, {settings.repeated});
+    const bool first_time = !series.has_value();
+    if (!first_time && found.size() == series->size() &&
+        found.step(found.size() - 1) == series->step(series->size() - 1))
+      return false;
+    const bool goes_on = !first_time && found.size() > sums->snapshots();
+    series.emplace(std::move(found));
+    if (goes_on)
+      update_times(*setup, *series);
+    else
+      begin();
+    if (is_auto() && !evenly_spaced(setup->times)) {
+      uneven_auto();
+    } else {
+      const auto range = window_of(*setup);
+      Window window{.first = range.first, .snapshots = range.count};
+      const auto complete = add_all(weights_of(*setup, range));
+      if (is_auto()) window = complete.choose_window();
+      result = complete.finish(*series, window);
+    }
+    result.label = settings.label;
+    result.inputs = series->files();
+    if (options.pictures) keep_frames(*setup, *series, result);
+    seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+    result.seconds = seconds;
+    return true;
+  }
+
+  /// Adds what is new; the last snapshot, whose weight a successor would change, only to the copy
+  /// that is returned.
+  RunSums add_all(const std::vector<double>& weights) {
+    const std::size_t all = series->size();
+    std::optional<RunSums> complete;
+    for_each_product(*setup, *series, sums->snapshots(), all, threads(),
+                     [&](SnapshotProduct& product) {
+                       const auto i = product.snapshot;
+                       if (i + 1 == all) complete.emplace(*sums);
+                       (complete ? *complete : *sums).add(product, weights[i]);
+                       if (options.progress) options.progress(i + 1, all);
+                     });
+    return std::move(*complete);
+  }
+
+  /// With uneven spacing the weight of a snapshot depends on where the window begins, so the run is
+  /// read twice: once to choose the window, once to average over it.
+  void uneven_auto() {
+    sums.emplace(*setup, true, options.pictures);
+    const auto window = add_all(weights_of(*setup, {0, setup->times.size()})).choose_window();
+    setup->settings.average = {setup->times[window.first], setup->times.back()};
+    const auto range = window_of(*setup);
+    sums.emplace(*setup, false, options.pictures);
+    result = add_all(weights_of(*setup, range)).finish(*series, window);
+    setup->settings.average.reset();
+    sums.emplace(*setup, true, options.pictures);
+  }
+
+  int threads() const {
+    return options.threads > 0 ? options.threads
+                               : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  }
+};
+
+LiveAnalysis::LiveAnalysis(RunSettings settings, AnalysisOptions options)
+    : state_(std::make_unique<State>()) {
+  state_->settings = std::move(settings);
+  state_->options = std::move(options);
+}
+LiveAnalysis::~LiveAnalysis() = default;
+LiveAnalysis::LiveAnalysis(LiveAnalysis&&) noexcept = default;
+bool LiveAnalysis::update() { return state_->update(); }
+const RunResult& LiveAnalysis::result() const { return state_->result; }
+
+RunResult analyse_run(const RunSettings& settings, const AnalysisOptions& options) {
+  LiveAnalysis analysis(settings, options);
+  analysis.update();
+  return analysis.result();
+}
+
+}  // namespace bedscope::analysis

@@ -34,8 +34,8 @@ struct WeightedSum {
 };
 
 /// Sums of a series in leaves of 2^k consecutive snapshots. When there are more than `limit`, pairs
-/// of neighbours merge and k grows: memory stays bounded, and since leaves are aligned to the index in
-/// the series, the total is the same tree whatever the limit.
+/// of neighbours merge and k grows: memory stays bounded, and since leaves are aligned to the index
+/// in the series, the total is the same tree whatever the limit.
 class Leaves {
  public:
   /// `first_power`: the smallest leaf holds 2^first_power snapshots, added one after the other.
@@ -47,7 +47,8 @@ class Leaves {
     return leaves_[index >> power_];
   }
 
-  /// By leaf number; leaf n holds the snapshots n * size() ... (n + 1) * size() - 1 that were added.
+  /// By leaf number; leaf n holds the snapshots n * size() ... (n + 1) * size() - 1 that were
+  /// added.
   const std::map<std::size_t, WeightedSum>& leaves() const { return leaves_; }
   std::size_t size() const { return std::size_t{1} << power_; }
 

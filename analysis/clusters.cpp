@@ -135,6 +135,38 @@ std::vector<Point> trace(const Grid& grid, const std::vector<int>& labels, int i
   return outline;
 }
 
+/// The labels of the regions that are clusters, from the bottom upwards.
+std::vector<std::size_t> select_clusters(const Grid& grid, const std::vector<Region>& regions,
+                                         const ClusterThresholds& thresholds) {
+  const double cell_area = grid.width(lateral) * grid.width(up);
+  std::vector<std::size_t> kept;
+  for (std::size_t label = 1; label < regions.size(); ++label)
+    if (regions[label].holdup_max > thresholds.core &&
+        static_cast<double>(regions[label].cells) * cell_area >= thresholds.min_area * (1 - 1e-9))
+      kept.push_back(label);
+  std::sort(kept.begin(), kept.end(), [&regions](std::size_t a, std::size_t b) {
+    const auto order = [](const Region& region) {
+      return std::tuple(region.mean_k(), region.mean_i(), region.first_k, region.first_i);
+    };
+    return order(regions[a]) < order(regions[b]);
+  });
+  return kept;
+}
+
+/// Every outline has the bottom face of a cell, and the cluster's first cell has one of the outer.
+void add_contours(const Grid& grid, const std::vector<std::size_t>& dense, ClusterImage& image) {
+  const auto columns = static_cast<std::size_t>(grid.cells[lateral]);
+  std::vector<std::uint8_t> traced(image.labels.size(), 0);
+  for (const std::size_t cell : dense) {
+    const int number = image.labels[cell];
+    const bool face = cell < columns || image.labels[cell - columns] != number;
+    if (number == 0 || !face || traced[cell]) continue;
+    image.clusters[static_cast<std::size_t>(number - 1)].contours.push_back(
+        trace(grid, image.labels, static_cast<int>(cell % columns),
+              static_cast<int>(cell / columns), traced));
+  }
+}
+
 }  // namespace
 
 ClusterImage find_clusters(const Grid& grid, std::span<const double> holdup,
@@ -163,19 +195,7 @@ ClusterImage find_clusters(const Grid& grid, std::span<const double> holdup,
     region.holdup_vz += holdup_vz[cell];
   }
 
-  const double cell_area = grid.width(lateral) * grid.width(up);
-  std::vector<std::size_t> kept;
-  for (std::size_t label = 1; label < regions.size(); ++label)
-    if (regions[label].holdup_max > thresholds.core &&
-        static_cast<double>(regions[label].cells) * cell_area >= thresholds.min_area * (1 - 1e-9))
-      kept.push_back(label);
-  std::sort(kept.begin(), kept.end(), [&regions](std::size_t a, std::size_t b) {
-    const auto order = [](const Region& region) {
-      return std::tuple(region.mean_k(), region.mean_i(), region.first_k, region.first_i);
-    };
-    return order(regions[a]) < order(regions[b]);
-  });
-
+  const auto kept = select_clusters(grid, regions, thresholds);
   std::vector<int> numbers(regions.size(), 0);
   for (const std::size_t label : kept) {
     image.clusters.push_back(measure(grid, regions[label]));
@@ -183,17 +203,7 @@ ClusterImage find_clusters(const Grid& grid, std::span<const double> holdup,
   }
   for (const std::size_t cell : dense)
     image.labels[cell] = numbers[static_cast<std::size_t>(image.labels[cell])];
-
-  // Every outline has a bottom face of a cell, and the cluster's first cell has one of the outer.
-  std::vector<std::uint8_t> traced(holdup.size(), 0);
-  for (const std::size_t cell : dense) {
-    const int number = image.labels[cell];
-    if (number == 0 || traced[cell] || (cell >= columns && image.labels[cell - columns] == number))
-      continue;
-    image.clusters[static_cast<std::size_t>(number - 1)].contours.push_back(
-        trace(grid, image.labels, static_cast<int>(cell % columns),
-              static_cast<int>(cell / columns), traced));
-  }
+  add_contours(grid, dense, image);
   return image;
 }
 

@@ -9,9 +9,10 @@ namespace bedscope::analysis {
 namespace {
 constexpr double pi = std::numbers::pi;
 
-// atan2(y, x) for x, y >= 0, not both 0: half the time of libm's, and the same bits everywhere.
-// With t = y/x <= 1 and k the eighth nearest to t, atan t = atan k + atan u, |u| <= 1/16, where
-// Taylor's series up to u^13 leaves less than 1e-19.
+// atan2(y, x) for x, y >= 0, not both 0: the same bits everywhere, and a fifth of the exact
+// kernel's time less than with libm's (spheres one cell wide). With t = y/x <= 1 and k the eighth
+// nearest to t, atan t = atan k + atan u, |u| <= 1/16, where Taylor's series up to u^13 leaves less
+// than 1e-19.
 double angle(double y, double x) {
   constexpr std::array<double, 9> atan_of_eighths{0.0,
                                                   0.12435499454676143503,
@@ -24,7 +25,8 @@ double angle(double y, double x) {
                                                   0.78539816339744830962};
   const bool steep = y > x;
   if (steep) std::swap(x, y);
-  const int eighth = static_cast<int>(8.0 * (y / x) + 0.5);
+  const double eighths = 8.0 * (y / x) + 0.5;
+  const int eighth = static_cast<int>(eighths);
   const double k = 0.125 * eighth;
   const double u = (y - k * x) / (x + k * y), v = u * u;
   const double series =

@@ -39,6 +39,7 @@ struct SpeciesResult {
   std::vector<Profile> lateral;  ///< one for each of RunResult::heights
   MeanFields fields;
   std::vector<double> temperature_pdf;  ///< [-], per bin; empty without a temperature range
+  double temperature_outside = 0;       ///< share of particles outside that range
 };
 
 /// A row for each snapshot of the dump, inside and outside the window.

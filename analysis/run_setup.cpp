@@ -48,38 +48,13 @@ FirstLook look(const RunSettings& settings, const readers::Series& series) {
   return found;
 }
 
-void set_times(const RunSettings& settings, const readers::Series& series,
-               const readers::LiggghtsLog& log, RunSetup& setup) {
-  auto step = settings.time_step;
-  if (!step && log.time_step) {
-    step = log.time_step;
-    if (log.several_time_steps)
-      setup.problems.push_back(fmt::format("{}: several time steps; the last, {} s, is used",
-                                           log.path, *step));
-  }
-  setup.times.reserve(series.size());
-  if (step) {
-    for (std::size_t i = 0; i < series.size(); ++i)
-      setup.times.push_back(static_cast<double>(series.step(i) - settings.step_zero) * *step);
-    setup.half_step = *step / 2;
-    return;
-  }
-  for (std::size_t i = 0; i < series.size() && !std::isnan(series.time(i)); ++i)
-    setup.times.push_back(series.time(i));
-  if (setup.times.size() == series.size()) return;
-  if (settings.time_required)
-    throw InputError(
-        "run \"{}\": time_step is missing: no log.liggghts beside the dumps tells it; expected "
-        "time_step = ... [s a step] in the [[run]]",
-        settings.label);
-  setup.time_known = false;
-  setup.times.clear();
-  for (std::size_t i = 0; i < series.size(); ++i)
-    setup.times.push_back(static_cast<double>(series.step(i)));
-  setup.half_step = 0.5;
-  setup.problems.push_back(
-      "time step unknown (no study, no log.liggghts beside the dumps): times are nan, snapshots "
-      "weigh by their steps");
+void find_time_step(const readers::LiggghtsLog& log, RunSetup& setup) {
+  setup.time_step = setup.settings.time_step;
+  if (setup.time_step || !log.time_step) return;
+  setup.time_step = log.time_step;
+  setup.problems.push_back(fmt::format("time_step of {} s taken from {}{}", *log.time_step,
+                                       log.path,
+                                       log.several_time_steps ? ", the last of several" : ""));
 }
 
 double mean_radius(const RunSetup& setup, const FirstLook& first) {
@@ -122,9 +97,10 @@ void set_domain(const readers::Series& series, const FirstLook& first, RunSetup&
         high = std::max(high, value);
       }
       if (!(low <= high))
-        throw InputError("run \"{}\": domain is missing, and no particle tells it; expected "
-                         "domain = {{ min = [...], max = [...] }} [m] in [scene]",
-                         settings.label);
+        throw InputError(
+            "run \"{}\": domain is missing, and no particle tells it; expected "
+            "domain = {{ min = [...], max = [...] }} [m] in [scene]",
+            settings.label);
       min[axis] = low - r;
       max[axis] = high + r;
     }
@@ -176,11 +152,12 @@ void set_cells(const FirstLook& first, RunSetup& setup) {
       if (exact > most_cells)
         throw InputError("run \"{}\": cell of {} m is too small for a domain of {} m",
                          settings.label, cell[k], grid.length(axis));
-      grid.cells[static_cast<std::size_t>(axis)] = std::max(1, static_cast<int>(std::lround(exact)));
+      grid.cells[static_cast<std::size_t>(axis)] =
+          std::max(1, static_cast<int>(std::lround(exact)));
       if (!settings.cell.empty() && std::abs(grid.width(axis) / cell[k] - 1) > 1e-6)
         setup.problems.push_back(
-            fmt::format("cell of {} m does not divide the domain: {:.6g} m is used ({} cells)", cell[k],
-                        grid.width(axis), grid.cells[static_cast<std::size_t>(axis)]));
+            fmt::format("cell of {} m does not divide the domain: {:.6g} m is used ({} cells)",
+                        cell[k], grid.width(axis), grid.cells[static_cast<std::size_t>(axis)]));
     }
   }
   const double cells = 1.0 * grid.cells[0] * grid.cells[1] * grid.cells[2];
@@ -189,9 +166,10 @@ void set_cells(const FirstLook& first, RunSetup& setup) {
                      cells, most_cells);
 }
 
-/// Density by type from the column of the first snapshot; the study and the log know it as one value
-/// a type, and so do all dumps that we have seen.
-ByType density_of_columns(const FirstLook& first, const RunSetup& setup, std::vector<std::string>& problems) {
+/// Density by type from the column of the first snapshot; the study and the log know it as one
+/// value a type, and so do all dumps that we have seen.
+ByType density_of_columns(const FirstLook& first, const RunSetup& setup,
+                          std::vector<std::string>& problems) {
   ByType found;
   const bool by_mass = first.column(FirstLook::density).empty();
   const auto& values = first.column(by_mass ? FirstLook::mass : FirstLook::density);
@@ -205,8 +183,7 @@ ByType density_of_columns(const FirstLook& first, const RunSetup& setup, std::ve
   for (std::size_t i = 0; i < values.size(); ++i) {
     const int of = type.empty() ? 0 : static_cast<int>(type[i]);
     const double r = setup.radius_in_dumps ? radius[i] : setup.settings.radius.at(of);
-    const double value =
-        by_mass ? values[i] / (4. / 3. * std::numbers::pi * r * r * r) : values[i];
+    const double value = by_mass ? values[i] / (4. / 3. * std::numbers::pi * r * r * r) : values[i];
     if (!(value > 0) || !std::isfinite(value)) continue;
     auto& range = ranges[of];
     range.sum += value;
@@ -272,15 +249,46 @@ void set_heights(RunSetup& setup) {
 
 }  // namespace
 
+void update_times(RunSetup& setup, const readers::Series& series) {
+  const auto& settings = setup.settings;
+  setup.times.clear();
+  if (setup.time_step) {
+    for (std::size_t i = 0; i < series.size(); ++i)
+      setup.times.push_back(static_cast<double>(series.step(i) - settings.step_zero) *
+                            *setup.time_step);
+    setup.half_step = *setup.time_step / 2;
+    return;
+  }
+  for (std::size_t i = 0; i < series.size() && !std::isnan(series.time(i)); ++i)
+    setup.times.push_back(series.time(i));  // some forms store it
+  if (setup.times.size() == series.size()) return;
+  if (settings.time_required)
+    throw InputError(
+        "run \"{}\": time_step is missing: no log.liggghts beside the dumps tells it; expected "
+        "time_step = ... [s a step] in the [[run]]",
+        settings.label);
+  setup.times.clear();
+  for (std::size_t i = 0; i < series.size(); ++i)
+    setup.times.push_back(static_cast<double>(series.step(i)));
+  setup.half_step = 0.5;
+  if (!setup.time_known) return;
+  setup.time_known = false;
+  setup.problems.push_back(
+      "time step unknown (no study, no log.liggghts beside the dumps): times are nan, snapshots "
+      "weigh by their steps");
+}
+
 RunSetup set_up(const RunSettings& settings, const readers::Series& series) {
   RunSetup setup;
   setup.settings = settings;
   const auto log = readers::find_log(series.path(0));
   const auto first = look(settings, series);
-  set_times(settings, series, log, setup);
+  find_time_step(log, setup);
+  update_times(setup, series);
 
   setup.radius_in_dumps = !settings.radius.given();
-  if (setup.radius_in_dumps && first.snapshot.particles > 0 && first.column(FirstLook::radius).empty())
+  if (setup.radius_in_dumps && first.snapshot.particles > 0 &&
+      first.column(FirstLook::radius).empty())
     throw InputError(
         "run \"{}\": radius is missing: the dumps have none (columns: {}); expected radius = ... "
         "[m] in [scene]",
@@ -311,6 +319,8 @@ RunSetup set_up(const RunSettings& settings, const readers::Series& series) {
                    {"id", false},
                    {setup.has_temperature ? settings.temperature_column : "no temperature", false}};
   for (const auto& rule : settings.species) setup.request.push_back({rule.column});
+  setup.request_without_id = setup.request;
+  setup.request_without_id[column_id] = {"no id needed", false};
   return setup;
 }
 

@@ -2,6 +2,7 @@
 // Settings and dumps brought together: the grid, the columns to read, the times, the densities.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,8 +30,8 @@ enum Column : std::size_t {
 struct RunSetup {
   RunSettings settings;
   Grid grid;
-  Kernel kernel = CentreKernel(Grid{});
-  readers::Request request;
+  std::optional<Kernel> kernel;  ///< set by set_up()
+  readers::Request request, request_without_id;
   bool domain_assumed = false;
   bool has_velocity = true;
   bool radius_in_dumps = true;
@@ -38,16 +39,21 @@ struct RunSetup {
 
   std::vector<double> times;  ///< [s]; where no time step is known the steps themselves
   bool time_known = true;
-  double half_step = 0;       ///< [s] by which the window is widened
+  std::optional<double> time_step;  ///< [s], from the study or the log
+  double half_step = 0;             ///< [s] by which the window is widened
 
-  ByType density;             ///< [kg/m3], from the study, a column, or the log
+  ByType density;  ///< [kg/m3], from the study, a column, or the log
   std::vector<double> heights;
   double band = 0;
-  std::vector<std::vector<double>> band_weights;  ///< a height: the share of each layer of cells, sum 1
+  std::vector<std::vector<double>>
+      band_weights;  ///< a height: the share of each layer of cells, sum 1
   std::vector<std::string> problems;
 };
 
 /// Throws InputError naming the key for whatever is neither in the study nor on disk.
 RunSetup set_up(const RunSettings& settings, const readers::Series& series);
+
+/// Sets the times anew for a series that has grown.
+void update_times(RunSetup& setup, const readers::Series& series);
 
 }  // namespace bedscope::analysis

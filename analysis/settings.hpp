@@ -37,12 +37,18 @@ struct SpeciesRule {
 
   bool holds(double x) const {
     switch (comparison) {
-      case Comparison::less: return x < value;
-      case Comparison::less_equal: return x <= value;
-      case Comparison::greater: return x > value;
-      case Comparison::greater_equal: return x >= value;
-      case Comparison::equal: return x == value;
-      default: return x != value;
+      case Comparison::less:
+        return x < value;
+      case Comparison::less_equal:
+        return x <= value;
+      case Comparison::greater:
+        return x > value;
+      case Comparison::greater_equal:
+        return x >= value;
+      case Comparison::equal:
+        return x == value;
+      default:
+        return x != value;
     }
   }
 };
@@ -56,13 +62,14 @@ struct RunSettings {
   bool time_required = true;        ///< false: without a time step go on, counting steps
   std::int64_t step_zero = 0;
 
-  std::optional<std::array<std::array<double, 3>, 2>> domain;  ///< min, max [m]; else the dump's box
+  std::optional<std::array<std::array<double, 3>, 2>>
+      domain;  ///< min, max [m]; else the dump's box
   int up = 2, lateral = 0;
-  std::vector<double> cell;   ///< [m] lateral, up; or lateral, depth, up for a 3-D grid
-  std::vector<int> cells;     ///< their number, in the same order
+  std::vector<double> cell;  ///< [m] lateral, up; or lateral, depth, up for a 3-D grid
+  std::vector<int> cells;    ///< their number, in the same order
   std::optional<std::array<bool, 3>> periodic;
-  ByType density;             ///< [kg/m3]
-  ByType radius;              ///< [m]
+  ByType density;  ///< [kg/m3]
+  ByType radius;   ///< [m]
   std::vector<SpeciesRule> species;
   std::optional<std::array<double, 2>> average;  ///< from, to [s]; else `auto`
   std::string mapping = "exact";

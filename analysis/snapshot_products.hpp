@@ -24,8 +24,8 @@ struct SlotProduct {
   std::vector<double> fields;    ///< [cell][3]: phi, phi v_lateral, phi v_up
   std::vector<double> profiles;  ///< [layer][2], then [height][lateral cell][2]: phi, phi v_up
   std::int64_t particles = 0;
-  double volume = 0;             ///< of every particle of the dump [m3]
-  double moment = 0;             ///< sum of volume x height above the domain's floor [m4]
+  double volume = 0;  ///< of every particle of the dump [m3]
+  double moment = 0;  ///< sum of volume x height above the domain's floor [m4]
   std::int64_t with_temperature = 0;
   double shifted_sum = 0, shifted_squares = 0;  ///< of T - T0, T0 of the snapshot's first particle
   double coldest = 0, hottest = 0;

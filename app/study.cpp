@@ -1,1 +1,472 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "app/study.hpp"
+
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numeric>
+#include <set>
+#include <sstream>
+
+#include "readers/error.hpp"
+
+namespace bedscope::app {
+namespace {
+
+using analysis::RunSettings;
+using analysis::SpeciesRule;
+
+/// Levenshtein (1966): the least number of insertions, deletions and replacements.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), 0);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = row[0]++;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i] != b[j]);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({row[j + 1] + 1, row[j] + 1, replaced});
+    }
+  }
+  return row.back();
+}
+
+/// What a TOML node is, for messages.
+std::string found_text(const toml::node& node) {
+  std::ostringstream text;
+  switch (node.type()) {
+    case toml::node_type::string:
+      text << '"' << node.value_or(std::string{}) << '"';
+      break;
+    case toml::node_type::table:
+      return "a table";
+    case toml::node_type::array:
+      return "an array";
+    default:
+      node.visit([&](const auto& value) {
+        if constexpr (toml::is_value<decltype(value)>) text << value.get();
+      });
+  }
+  return text.str();
+}
+
+/// A table of the study, read key by key; what was never asked for is unknown.
+class Table {
+ public:
+  Table(const toml::table& table, std::string name, const std::string& path)
+      : table_(&table), name_(std::move(name)), path_(&path) {}
+
+  template <class... T>
+  [[noreturn]] void fail(const toml::node& node, fmt::format_string<T...> text,
+                         T&&... values) const {
+    throw InputError("{}: line {}: {}", *path_, node.source().begin.line,
+                     fmt::format(text, std::forward<T>(values)...));
+  }
+
+  const toml::node* find(std::string_view key) {
+    known_.insert(std::string(key));
+    return table_->get(key);
+  }
+  std::string key(std::string_view name) const {
+    return name_.empty() ? std::string(name) : fmt::format("{}.{}", name_, name);
+  }
+
+  std::optional<std::string> text(std::string_view name) {
+    const auto* node = find(name);
+    if (node == nullptr) return std::nullopt;
+    const auto value = node->value<std::string>();
+    if (!node->is_string())
+      fail(*node, "{}: expected a text, found {}", key(name), found_text(*node));
+    return value;
+  }
+
+  std::optional<double> number(std::string_view name) {
+    const auto* node = find(name);
+    if (node == nullptr) return std::nullopt;
+    return number(*node, key(name));
+  }
+  double number(const toml::node& node, const std::string& what) const {
+    const auto value = node.is_number() ? node.value<double>() : std::nullopt;
+    if (!value || !std::isfinite(*value))
+      fail(node, "{}: expected a number, found {}", what, found_text(node));
+    return *value;
+  }
+  std::optional<double> positive(std::string_view name) {
+    const auto value = number(name);
+    if (value && !(*value > 0))
+      fail(*find(name), "{}: expected a number above 0, found {}", key(name), *value);
+    return value;
+  }
+  std::optional<std::int64_t> integer(std::string_view name) {
+    const auto* node = find(name);
+    if (node == nullptr) return std::nullopt;
+    if (!node->is_integer())
+      fail(*node, "{}: expected an integer, found {}", key(name), found_text(*node));
+    return node->value<std::int64_t>();
+  }
+
+  std::optional<std::vector<double>> numbers(std::string_view name) {
+    const auto* node = find(name);
+    if (node == nullptr) return std::nullopt;
+    if (!node->is_array())
+      fail(*node, "{}: expected an array of numbers, found {}", key(name), found_text(*node));
+    std::vector<double> values;
+    for (const auto& item : *node->as_array()) values.push_back(number(item, key(name)));
+    return values;
+  }
+  std::optional<std::vector<std::string>> texts(std::string_view name) {
+    const auto* node = find(name);
+    if (node == nullptr) return std::nullopt;
+    if (!node->is_array())
+      fail(*node, "{}: expected an array of texts, found {}", key(name), found_text(*node));
+    std::vector<std::string> values;
+    for (const auto& item : *node->as_array()) {
+      if (!item.is_string())
+        fail(item, "{}: expected a text, found {}", key(name), found_text(item));
+      values.push_back(item.value_or(std::string{}));
+    }
+    return values;
+  }
+  std::optional<Table> table(std::string_view name) {
+    const auto* node = find(name);
+    if (node == nullptr) return std::nullopt;
+    if (!node->is_table())
+      fail(*node, "{}: expected a table, found {}", key(name), found_text(*node));
+    return Table(*node->as_table(), key(name), *path_);
+  }
+  std::vector<Table> tables(std::string_view name) {
+    std::vector<Table> found;
+    const auto* node = find(name);
+    if (node == nullptr) return found;
+    if (!node->is_array_of_tables())
+      fail(*node, "{}: expected [[{}]], found {}", key(name), name, found_text(*node));
+    for (const auto& item : *node->as_array())
+      found.emplace_back(*item.as_table(), std::string(name), *path_);
+    return found;
+  }
+  const toml::table& raw() const { return *table_; }
+
+  /// Every key that nobody asked for is an error that names the nearest known one.
+  void finish() const {
+    for (const auto& [name, node] : *table_) {
+      if (known_.contains(std::string(name.str()))) continue;
+      std::string nearest;
+      std::size_t least = ~std::size_t{0};
+      for (const auto& candidate : known_) {
+        const auto distance = edit_distance(name.str(), candidate);
+        if (distance < least) {
+          least = distance;
+          nearest = candidate;
+        }
+      }
+      throw InputError("{}: line {}: unknown key {}; the nearest known one is {}", *path_,
+                       name.source().begin.line, key(name.str()), key(nearest));
+    }
+  }
+
+ private:
+  const toml::table* table_;
+  std::string name_;
+  const std::string* path_;
+  std::set<std::string> known_;
+};
+
+int axis_number(Table& table, std::string_view key, int otherwise) {
+  const auto text = table.text(key);
+  if (!text) return otherwise;
+  if (text->size() != 1 || (*text)[0] < 'x' || (*text)[0] > 'z')
+    table.fail(*table.find(key), "{}: expected \"x\", \"y\" or \"z\", found \"{}\"", table.key(key),
+               *text);
+  return (*text)[0] - 'x';
+}
+
+std::array<double, 3> vector3(Table& table, std::string_view key) {
+  const auto values = table.numbers(key);
+  if (!values || values->size() != 3) {
+    const auto* node = table.find(key);
+    if (node == nullptr)
+      throw InputError("{} is missing: expected three numbers [m]", table.key(key));
+    table.fail(*node, "{}: expected three numbers [m]", table.key(key));
+  }
+  return {(*values)[0], (*values)[1], (*values)[2]};
+}
+
+/// `2500`, or a table by type: `{ 1 = 2400, 2 = 2600 }`.
+void by_type(Table& table, std::string_view key, analysis::ByType& value) {
+  const auto* node = table.find(key);
+  if (node == nullptr) return;
+  value = {};
+  const auto positive = [&](const toml::node& at) {
+    const double number = table.number(at, table.key(key));
+    if (!(number > 0))
+      table.fail(at, "{}: expected a number above 0, found {}", table.key(key), number);
+    return number;
+  };
+  if (!node->is_table()) {
+    value.all = positive(*node);
+    return;
+  }
+  for (const auto& [type, item] : *node->as_table()) {
+    const std::string name(type.str());
+    if (name.empty() || name.find_first_not_of("0123456789") != name.npos || name.size() > 6)
+      table.fail(item, "{}: expected a type number as key, found {}", table.key(key), name);
+    value.of_type[std::stoi(name)] = positive(item);
+  }
+}
+
+/// "q > 0": a column, a comparison, a number.
+SpeciesRule parse_rule(const Table& table, const toml::node& node, const std::string& name) {
+  using Comparison = SpeciesRule::Comparison;
+  static constexpr std::array<std::pair<std::string_view, Comparison>, 6> comparisons{
+      {{"<=", Comparison::less_equal},
+       {">=", Comparison::greater_equal},
+       {"==", Comparison::equal},
+       {"!=", Comparison::not_equal},
+       {"<", Comparison::less},
+       {">", Comparison::greater}}};
+  const auto text = node.value_or(std::string{});
+  for (const auto& [sign, comparison] : comparisons) {
+    const auto at = text.find(sign);
+    if (at == text.npos) continue;
+    const auto trim = [](std::string part) {
+      const auto first = part.find_first_not_of(" \t");
+      return first == part.npos ? std::string{}
+                                : part.substr(first, part.find_last_not_of(" \t") - first + 1);
+    };
+    SpeciesRule rule{name, trim(text.substr(0, at)), comparison, 0};
+    const auto number = trim(text.substr(at + sign.size()));
+    std::istringstream stream(number);
+    stream.imbue(std::locale::classic());
+    if (!rule.column.empty() && stream >> rule.value && stream.peek() == EOF) return rule;
+  }
+  table.fail(node, "species.{}: expected a rule such as \"q > 0\", found {}", name,
+             found_text(node));
+}
+
+std::optional<std::array<double, 2>> window(Table& table, RunSettings& settings) {
+  const auto* node = table.find("average");
+  if (node == nullptr) return settings.average;
+  if (node->is_string()) {
+    if (node->value_or(std::string{}) != "auto")
+      table.fail(*node, "{}: expected \"auto\" or {{ from = ..., to = ... }}, found {}",
+                 table.key("average"), found_text(*node));
+    return std::nullopt;
+  }
+  auto range = table.table("average");
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const double from = range->number("from").value_or(-infinity);
+  const double to = range->number("to").value_or(infinity);
+  range->finish();
+  if (!(from <= to))
+    table.fail(*node, "{}: expected from <= to, found {} and {}", table.key("average"), from, to);
+  return std::array{from, to};
+}
+
+void read_grid(Table& table, RunSettings& settings) {
+  const auto cell = table.numbers("cell");
+  const auto cells = table.numbers("cells");
+  if (cell && cells) table.fail(*table.find("cells"), "cell and cells: expected one of them");
+  if (cell) {
+    if (cell->size() != 2 && cell->size() != 3)
+      table.fail(*table.find("cell"),
+                 "{}: expected 2 sizes (lateral, up) or 3 (lateral, depth, up), found {}",
+                 table.key("cell"), cell->size());
+    for (const double size : *cell)
+      if (!(size > 0))
+        table.fail(*table.find("cell"), "{}: expected sizes above 0 m, found {}", table.key("cell"),
+                   size);
+    settings.cell = *cell;
+    settings.cells.clear();
+  }
+  if (cells) {
+    if (cells->size() != 2 && cells->size() != 3)
+      table.fail(*table.find("cells"),
+                 "{}: expected 2 numbers (lateral, up) or 3 (lateral, depth, up), found {}",
+                 table.key("cells"), cells->size());
+    settings.cell.clear();
+    settings.cells.clear();
+    for (const double count : *cells) {
+      if (!(count >= 1 && count <= 1e8) || count != std::floor(count))
+        table.fail(*table.find("cells"), "{}: expected whole numbers of at least 1, found {}",
+                   table.key("cells"), count);
+      settings.cells.push_back(static_cast<int>(count));
+    }
+  }
+}
+
+/// The keys of [scene], which a [[run]] may say otherwise.
+void read_scene(Table& table, RunSettings& settings) {
+  if (auto domain = table.table("domain")) {
+    const auto min = vector3(*domain, "min"), max = vector3(*domain, "max");
+    domain->finish();
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (!(max[axis] > min[axis]))
+        table.fail(*table.find("domain"), "{}: expected min < max in {}, found {} and {}",
+                   table.key("domain"), "xyz"[axis], min[axis], max[axis]);
+    settings.domain = {{min, max}};
+  }
+  settings.up = axis_number(table, "up", settings.up);
+  settings.lateral =
+      axis_number(table, "lateral",
+                  settings.lateral == settings.up ? (settings.up == 0 ? 1 : 0) : settings.lateral);
+  if (settings.up == settings.lateral) {
+    const auto* node = table.find("lateral") != nullptr ? table.find("lateral") : table.find("up");
+    table.fail(*node, "up and lateral: expected two axes, found \"{}\" twice", "xyz"[settings.up]);
+  }
+  read_grid(table, settings);
+  if (const auto axes = table.texts("periodic")) {
+    settings.periodic = std::array<bool, 3>{};
+    for (const auto& axis : *axes) {
+      if (axis.size() != 1 || axis[0] < 'x' || axis[0] > 'z')
+        table.fail(*table.find("periodic"), "{}: expected axes \"x\", \"y\", \"z\", found \"{}\"",
+                   table.key("periodic"), axis);
+      (*settings.periodic)[static_cast<std::size_t>(axis[0] - 'x')] = true;
+    }
+  }
+  by_type(table, "density", settings.density);
+  by_type(table, "radius", settings.radius);
+  table.positive("gas_density");
+  if (auto species = table.table("species")) {
+    settings.species.clear();
+    for (const auto& [name, node] : species->raw()) {
+      const std::string label(name.str());
+      if (!node.is_string())
+        table.fail(node, "species.{}: expected a rule such as \"q > 0\", found {}", label,
+                   found_text(node));
+      if (label == "all" || label.find_first_not_of("0123456789") == label.npos)
+        table.fail(node, "species.{}: this name is taken by {}", label,
+                   label == "all" ? "the total" : "a type");
+      settings.species.push_back(parse_rule(table, node, label));
+    }
+  }
+  settings.average = window(table, settings);
+  if (const auto mapping = table.text("mapping")) {
+    static constexpr std::array<std::string_view, 4> kernels{"centre", "exact", "divided",
+                                                             "gaussian"};
+    if (std::find(kernels.begin(), kernels.end(), *mapping) == kernels.end())
+      table.fail(*table.find("mapping"), "{}: expected one of {}, found \"{}\"",
+                 table.key("mapping"), fmt::join(kernels, ", "), *mapping);
+    settings.mapping = *mapping;
+  }
+}
+
+void read_products(Table& study, RunSettings& settings) {
+  if (auto profiles = study.table("profiles")) {
+    settings.heights = profiles->numbers("heights").value_or(std::vector<double>{});
+    settings.band = profiles->positive("band").value_or(0);
+    profiles->finish();
+  }
+  if (auto clusters = study.table("clusters")) {
+    auto& thresholds = settings.clusters;
+    thresholds.threshold = clusters->positive("threshold").value_or(thresholds.threshold);
+    thresholds.core = clusters->positive("core").value_or(thresholds.core);
+    thresholds.min_area = clusters->positive("min_area").value_or(thresholds.min_area);
+    clusters->finish();
+  }
+  if (auto temperature = study.table("temperature")) {
+    settings.temperature_column = temperature->text("column").value_or(settings.temperature_column);
+    const auto from = temperature->number("from"), to = temperature->number("to");
+    if (from.has_value() != to.has_value() || (from && !(*from < *to)))
+      temperature->fail(temperature->raw(),
+                        "temperature: expected from < to [K], both or none of them");
+    if (from) settings.temperature = {{*from, *to}};
+    const auto bins = temperature->integer("bins").value_or(settings.temperature_bins);
+    if (bins < 1 || bins > 100000)
+      temperature->fail(*temperature->find("bins"),
+                        "temperature.bins: expected 1 to 100000, found {}", bins);
+    settings.temperature_bins = static_cast<int>(bins);
+    temperature->finish();
+  }
+}
+
+StudyRun read_run(Table& table, RunSettings settings, const std::filesystem::path& folder,
+                  std::size_t number) {
+  StudyRun run;
+  const auto in_folder = [&](const std::string& path) {
+    return (std::filesystem::path(path).is_absolute() ? std::filesystem::path(path) : folder / path)
+        .lexically_normal()
+        .string();
+  };
+  read_scene(table, settings);
+  settings.label = table.text("label").value_or(fmt::format("run {}", number));
+  const auto particles = table.text("particles");
+  const auto tables = table.text("tables");
+  if (particles && tables)
+    table.fail(*table.find("tables"), "run \"{}\": expected particles or tables, found both",
+               settings.label);
+  if (!particles && !tables)
+    table.fail(table.raw(),
+               "run \"{}\": particles is missing: expected a file, a folder or a pattern",
+               settings.label);
+  if (particles) settings.particles = in_folder(*particles);
+  if (tables) run.tables = in_folder(*tables);
+  settings.time_step = table.positive("time_step");
+  settings.step_zero = table.integer("step_zero").value_or(0);
+  if (const auto repeated = table.text("repeated")) {
+    if (*repeated != "first" && *repeated != "last")
+      table.fail(*table.find("repeated"), "{}: expected \"first\" or \"last\", found \"{}\"",
+                 table.key("repeated"), *repeated);
+    settings.repeated = *repeated == "first" ? readers::Repeated::first : readers::Repeated::last;
+  }
+  for (const auto* key : {"columns", "gas", "decomposition"})
+    if (table.find(key) != nullptr)
+      run.problems.push_back(fmt::format("key {} is not used by this version", key));
+  table.finish();
+  run.settings = std::move(settings);
+  return run;
+}
+
+}  // namespace
+
+Study read_study(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw FileError("{}: cannot be read", path);
+  const std::string content((std::istreambuf_iterator<char>(file)),
+                            std::istreambuf_iterator<char>());
+  toml::table parsed;
+  try {
+    parsed = toml::parse(content, path);
+  } catch (const toml::parse_error& error) {
+    throw InputError("{}: line {}: {}", path, error.source().begin.line, error.description());
+  }
+  Table table(parsed, "", path);
+  Study study;
+  study.title = table.text("title").value_or(std::filesystem::path(path).stem().string());
+  RunSettings shared;
+  if (auto scene = table.table("scene")) {
+    read_scene(*scene, shared);
+    scene->finish();
+  }
+  read_products(table, shared);
+  for (const auto* later : {"tradeoff", "check"}) table.find(later);  // for other commands
+  auto runs = table.tables("run");
+  table.finish();
+  if (runs.empty()) throw InputError("{}: no [[run]]: expected at least one", path);
+  const auto folder = std::filesystem::path(path).parent_path();
+  std::set<std::string> labels;
+  for (auto& run : runs) {
+    study.runs.push_back(read_run(run, shared, folder, study.runs.size() + 1));
+    const auto& label = study.runs.back().settings.label;
+    if (!labels.insert(label).second) run.fail(run.raw(), "run.label: \"{}\" occurs twice", label);
+  }
+  return study;
+}
+
+Study study_of_path(const std::string& path) {
+  Study study;
+  auto name = std::filesystem::path(path).lexically_normal();
+  if (!name.has_filename()) name = name.parent_path();
+  study.title = std::filesystem::absolute(name).filename().string();
+  StudyRun run;
+  run.settings.label = study.title;
+  run.settings.particles = path;
+  run.settings.time_required = false;
+  study.runs.push_back(std::move(run));
+  return study;
+}
+
+}  // namespace bedscope::app

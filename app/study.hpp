@@ -1,2 +1,32 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The study file (TOML): which runs, and what is asked of them. docs/study.md lists every key.
 #pragma once
+
+#include <string>
+#include <vector>
+
+#include "analysis/settings.hpp"
+
+namespace bedscope::app {
+
+/// One [[run]] with the scene's keys put in where it does not say otherwise.
+struct StudyRun {
+  analysis::RunSettings settings;
+  std::string tables;                 ///< a folder of tables instead of dumps; else empty
+  std::vector<std::string> problems;  ///< keys that this version reads but does not use yet
+};
+
+struct Study {
+  std::string title;
+  std::vector<StudyRun> runs;
+};
+
+/// Reads a study file. Paths in it are relative to its folder. Throws FileError, or InputError with
+/// file, line, key, what was expected and what was found; an unknown key names the nearest known
+/// one.
+Study read_study(const std::string& path);
+
+/// The study that stands for a bare path: everything by default, unknown things said so.
+Study study_of_path(const std::string& path);
+
+}  // namespace bedscope::app

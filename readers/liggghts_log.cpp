@@ -43,7 +43,8 @@ LiggghtsLog read_log(const std::string& path) {
       }
     }
     // fix pts all particletemplate/sphere 1 atom_type 1 density constant 2500 radius constant 1e-3
-    if (words.size() < 5 || words[0] != "fix" || !words[3].starts_with("particletemplate/")) continue;
+    if (words.size() < 5 || words[0] != "fix" || !words[3].starts_with("particletemplate/"))
+      continue;
     std::optional<double> type, density;
     for (std::size_t i = 4; i + 1 < words.size(); ++i) {
       if (words[i] == "atom_type") type = number(words[i + 1]);

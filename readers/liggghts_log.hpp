@@ -12,7 +12,7 @@ struct LiggghtsLog {
   std::string path;                 ///< empty: no log was found
   std::optional<double> time_step;  ///< [s], of the last `timestep` command
   bool several_time_steps = false;
-  std::map<int, double> density;    ///< by atom type, from constant particle templates [kg/m3]
+  std::map<int, double> density;  ///< by atom type, from constant particle templates [kg/m3]
 };
 
 /// Looks for log.liggghts in the folder of a dump and in the folder above it.

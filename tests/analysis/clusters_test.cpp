@@ -25,6 +25,11 @@ Grid grid_of(int columns, int rows, double width_x, double width_z) {
   return grid;
 }
 
+std::size_t position(int columns, int i, int k) {
+  return static_cast<std::size_t>(i) +
+         static_cast<std::size_t>(columns) * static_cast<std::size_t>(k);
+}
+
 /// A snapshot that is drawn; the solids move at (0.3, -1.2) m/s unless told otherwise.
 struct Field {
   Grid grid;
@@ -32,15 +37,13 @@ struct Field {
   ClusterThresholds thresholds;
 
   explicit Field(const Grid& g) : grid(g) {
-    const std::size_t n = static_cast<std::size_t>(g.cells[lateral] * g.cells[up]);
+    const std::size_t n = position(g.cells[lateral], 0, g.cells[up]);
     holdup.assign(n, 0.05);
     vx.assign(n, 0.3);
     vz.assign(n, -1.2);
     thresholds.min_area = 0;
   }
-  std::size_t cell(int i, int k) const {
-    return static_cast<std::size_t>(i + grid.cells[lateral] * k);
-  }
+  std::size_t cell(int i, int k) const { return position(grid.cells[lateral], i, k); }
   double& at(int i, int k) { return holdup[cell(i, k)]; }
   /// `shape(x, z)`: whether the point is inside; a cell is if its centre is.
   void draw(const std::function<bool(double, double)>& shape, double phi = 0.5) {
@@ -157,7 +160,7 @@ TEST(Clusters, an_area_of_exactly_the_smallest_counts_and_a_cell_less_does_not) 
     field.at(n - 1, 300) = 0.05;
     const auto image = field.find();
     EXPECT_TRUE(image.clusters.empty()) << n;
-    EXPECT_EQ(std::count(image.labels.begin(), image.labels.end(), 0), 28 * 628) << n;
+    EXPECT_EQ(image.labels, std::vector<int>(field.holdup.size(), 0)) << n;
   }
 }
 
@@ -332,7 +335,7 @@ TEST(Clusters, the_depth_of_a_3d_grid_does_not_matter) {
 TEST(Clusters, nothing_dense_gives_no_clusters) {
   const auto image = Field(grid_of(28, 600, 1e-3, 1e-3)).find();
   EXPECT_TRUE(image.clusters.empty());
-  EXPECT_EQ(image.labels, std::vector<int>(28 * 600, 0));
+  EXPECT_EQ(image.labels, std::vector<int>(std::size_t{28} * 600, 0));
 }
 
 TEST(Clusters, a_core_below_the_threshold_asks_for_nothing_more) {
@@ -364,7 +367,7 @@ struct Flood {
             const int i = cell % columns + di, k = cell / columns + dk;
             if (i < 0 || i >= columns || k < 0 || k >= rows) continue;
             if (!diagonal && di != 0 && dk != 0) continue;
-            const auto next = static_cast<std::size_t>(i + columns * k);
+            const auto next = position(columns, i, k);
             if (!member[next] || labels[next]) continue;
             labels[next] = number;
             stack.push_back(static_cast<int>(next));
@@ -376,10 +379,9 @@ struct Flood {
 
 /// Holes of a region: 4-connected parts of the rest that do not reach the border of a wider grid.
 std::size_t holes(const std::vector<int>& region, int columns, int rows) {
-  std::vector<bool> rest(static_cast<std::size_t>((columns + 2) * (rows + 2)), true);
+  std::vector<bool> rest(position(columns + 2, 0, rows + 2), true);
   for (const int cell : region)
-    rest[static_cast<std::size_t>(cell % columns + 1 + (columns + 2) * (cell / columns + 1))] =
-        false;
+    rest[position(columns + 2, cell % columns + 1, cell / columns + 1)] = false;
   return Flood(columns + 2, rows + 2, rest, false).regions.size() - 1;
 }
 
@@ -465,6 +467,7 @@ TEST(Clusters, threads_that_search_at_once_find_the_same) {
   std::vector<ClusterImage> images(4);
   {
     std::vector<std::jthread> threads;
+    threads.reserve(images.size());
     for (auto& image : images) threads.emplace_back([&] { image = field.find(); });
   }
   for (const auto& image : images) {

@@ -191,13 +191,13 @@ TEST(Coverage, OfBurstsIsAtLeast90PercentOrWarned) {
   struct Bursts {
     double on, off, noise;
   };
-  for (const auto& [on, off, noise] :
+  for (const Bursts& b :
        {Bursts{0.05, 0.2, 0}, {0.02, 0.2, 0}, {0.02, 0.5, 0}, {0.01, 0.1, 0}, {0.01, 0.1, 0.1}}) {
     char name[80];
-    std::snprintf(name, sizeof name, "bursts of %g samples, %g apart, noise %g", 1 / off, 1 / on,
-                  noise);
-    const Shares shares =
-        measure(name, on / (on + off), [=](Random& r) { return bursts(r, on, off, noise); });
+    std::snprintf(name, sizeof name, "bursts of %g samples, %g apart, noise %g", 1 / b.off,
+                  1 / b.on, b.noise);
+    const Shares shares = measure(name, b.on / (b.on + b.off),
+                                  [&](Random& r) { return bursts(r, b.on, b.off, b.noise); });
     EXPECT_LT(shares.missed_unwarned, 0.10) << name;
   }
 }

@@ -318,6 +318,13 @@ TEST(Exact, OnAPeriodicAxisEqualsAWiderDomainFolded) {
   }
 }
 
+TEST(Exact, FillsADomainThatLiesInsideTheSphereUpToAHundredSides) {
+  // 1e-9: rounding of the sphere's volume, which is 1.6 million times the domain's
+  EXPECT_NEAR(share(ExactKernel(cubes), cubes, {0.1, 0.4, 0.7}, 59.9).inside, cubes.volume(),
+              1e-9 * cubes.volume());
+  EXPECT_EQ(share(ExactKernel(cubes), cubes, {0.1, 0.4, 0.7}, 60.1).inside, 0.0);
+}
+
 // ---- divided ----
 
 TEST(Divided, HasThePointsOfTheTwoSphericalShells) {
@@ -410,14 +417,21 @@ TEST(Gaussian, StaysWithinTheWalls) {
 }
 
 TEST(Gaussian, OfNoWidthToSpeakOfIsTheCentreKernel) {
-  for (const double w : {1e-300, 1e-17, 1e-6})
-    for (int face = 0; face <= 5; ++face) {
-      const Vec3 centre{averaged.face(0, face), 0.1, 0.5};
-      const Shared s = share(GaussianKernel(averaged, w), averaged, centre, 0.01);
-      EXPECT_NEAR(sum(s.parts), sphere_volume(0.01), 1e-14 * sphere_volume(0.01));
-    }
   EXPECT_EQ(only_cell(GaussianKernel(averaged, 1e-6), averaged, {0.1, 0.1, 0.4}, 0.01),
             only_cell(CentreKernel(averaged), averaged, {0.1, 0.1, 0.4}, 0.01));
+  // Nor is a cell missed where the cut-off is less than the rounding of a position at a face.
+  const Grid fine{{0, 0, 0.0025}, {0.07, 0.006, 1.5025}, {28, 1, 600}, {}};
+  for (const double w : {1e-300, 1e-17}) {
+    const GaussianKernel kernel(fine, w);
+    for (int face = 1; face < 600; ++face)
+      for (const double towards : {-1.0, 0.0, 1.0}) {
+        const double z = fine.face(up, face);
+        double total = 0.0;
+        kernel.share({0.01, 0.003, towards == 0.0 ? z : std::nextafter(z, 9.0 * towards)}, 1e-3,
+                     [&](std::size_t, double part) { total += part; });
+        EXPECT_NEAR(total, sphere_volume(1e-3), 1e-14 * sphere_volume(1e-3)) << face;
+      }
+  }
 }
 
 TEST(Gaussian, IsByDefaultAsWideAsTheWidestSideOfACell) {

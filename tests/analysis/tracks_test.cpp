@@ -29,11 +29,12 @@ struct Shape {
 };
 
 ClusterImage snapshot(const Grid& grid, const std::vector<Shape>& shapes) {
-  const auto n = static_cast<std::size_t>(grid.cells[lateral] * grid.cells[up]);
+  const auto columns = static_cast<std::size_t>(grid.cells[lateral]);
+  const std::size_t n = columns * static_cast<std::size_t>(grid.cells[up]);
   std::vector<double> holdup(n, 0.0), vx(n, 0.0), vz(n, 0.0);
   for (std::size_t cell = 0; cell < n; ++cell) {
-    const double i = static_cast<double>(cell % static_cast<std::size_t>(grid.cells[0])) + 0.5;
-    const double k = static_cast<double>(cell / static_cast<std::size_t>(grid.cells[0])) + 0.5;
+    const std::size_t column = cell % columns, row = cell / columns;
+    const double i = static_cast<double>(column) + 0.5, k = static_cast<double>(row) + 0.5;
     for (const Shape& shape : shapes) {
       const double a = (i - shape.i) / shape.columns, b = (k - shape.k) / shape.rows;
       const bool inside =
@@ -61,6 +62,7 @@ struct Film {
 
 std::vector<int> tracks(const std::vector<Cluster>& clusters) {
   std::vector<int> numbers;
+  numbers.reserve(clusters.size());
   for (const Cluster& cluster : clusters) numbers.push_back(cluster.track);
   return numbers;
 }

@@ -67,14 +67,14 @@ void report(benchmark::State& state, const ClusterImage& image) {
 
 void find_clusters_riser(benchmark::State& state) {
   const Field field = riser(static_cast<int>(state.range(0)));
-  for (auto _ : state) benchmark::DoNotOptimize(find(field));
+  for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(find(field));
   report(state, find(field));
 }
 BENCHMARK(find_clusters_riser)->Arg(10)->Arg(30)->Arg(100)->Unit(benchmark::kMicrosecond);
 
 void find_clusters_none(benchmark::State& state) {
   const Field field = riser(30);
-  for (auto _ : state) benchmark::DoNotOptimize(find(field, {2, 2, 60e-6}));
+  for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(find(field, {2, 2, 60e-6}));
 }
 BENCHMARK(find_clusters_none)->Unit(benchmark::kMicrosecond);
 
@@ -85,7 +85,7 @@ void find_clusters_noise(benchmark::State& state) {
   std::uniform_real_distribution<double> uniform(0, 0.4);
   for (double& phi : field.holdup) phi = uniform(random);
   const ClusterThresholds thresholds{0.3, 0.3, 0};
-  for (auto _ : state) benchmark::DoNotOptimize(find(field, thresholds));
+  for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(find(field, thresholds));
   report(state, find(field, thresholds));
 }
 BENCHMARK(find_clusters_noise)->Unit(benchmark::kMicrosecond);
@@ -95,7 +95,7 @@ void link_clusters_riser(benchmark::State& state) {
   ClusterImage image = find(field);
   Tracker tracker(field.grid);
   double time = 0;
-  for (auto _ : state) tracker.link(image, time += 0.01);
+  for ([[maybe_unused]] auto _ : state) tracker.link(image, time += 0.01);
   report(state, image);
 }
 BENCHMARK(link_clusters_riser)->Arg(10)->Arg(30)->Arg(100)->Unit(benchmark::kMicrosecond);

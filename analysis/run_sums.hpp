@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The serial end of the analysis: products taken in the order of the series, reduced to short
+// series and to sums over the window.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "analysis/averages.hpp"
+#include "analysis/snapshot_products.hpp"
+#include "analysis/time_window.hpp"
+#include "analysis/tracks.hpp"
+
+namespace bedscope::analysis {
+
+/// Copyable: a live analysis adds what is final, and finishes a copy.
+class RunSums {
+ public:
+  /// `keep_blocks`: the window is chosen afterwards, so field sums stay apart in blocks.
+  /// `keep_contours`: outlines of clusters are wanted (they are most of what clusters weigh).
+  RunSums(const RunSetup& setup, bool keep_blocks, bool keep_contours);
+
+  /// Takes the product of the next snapshot; `weight`: the time it stands for, 0 outside the
+  /// window.
+  void add(SnapshotProduct& product, double weight);
+
+  std::size_t snapshots() const { return samples_.size(); }
+  /// The first snapshot of the window that `auto` chooses, rounded up to a block.
+  Window choose_window() const;
+
+  /// Averages and their errors over `window` (which must be what the weights were for, or begin at
+  /// a block where blocks were kept), into a result without label, times of work and inputs.
+  RunResult finish(const readers::Series& series, const Window& window) const;
+
+ private:
+  struct SlotSample {
+    std::int64_t particles = 0;
+    double volume = 0, moment = 0;
+    std::int64_t with_temperature = 0;
+    double shifted_sum = 0, shifted_squares = 0, coldest = 0, hottest = 0;
+  };
+  struct Sample {
+    std::vector<SlotSample> slots;  // by number of the slot; later ones are zero
+    double volume = 0, volume_inside = 0, temperature_zero = 0;
+    double weight = 0;
+  };
+  struct Species;
+
+  std::size_t slot_number(SlotKey key);
+  std::vector<Species> species() const;
+  void inventory_of(const Species& species, RunResult& result) const;
+  void profiles_of(const Species& species, const Window& window, SpeciesResult& result,
+                   std::vector<std::string>& doubts) const;
+  void fields_of(const Species& species, const WeightedSum& sum, SpeciesResult& result) const;
+  void pdf_of(const Species& species, const Window& window, SpeciesResult& result) const;
+  void clusters_of(const Window& window, RunResult& result) const;
+  void means_of(const Window& window, RunResult& result) const;
+
+  const RunSetup* setup_;
+  bool keep_contours_;
+  std::vector<SlotKey> slots_;
+  Leaves fields_, profiles_, histograms_;
+  std::vector<Sample> samples_;
+  std::vector<OccurrenceSample> occurrence_;
+  std::vector<Cluster> clusters_;
+  Tracker tracker_;
+  readers::Flaws flaws_;
+  std::int64_t without_temperature_ = 0;
+  std::uint64_t bytes_read_ = 0;
+};
+
+}  // namespace bedscope::analysis
