@@ -301,7 +301,7 @@ TEST(VtkXml, WhatIsNotParticlesIsNamed) {
   EXPECT_EQ(scan_text("<VTKFile type='ImageData'><ImageData WholeExtent='0 9 0 9 0 9'/></VTKFile>")
                 .not_particles,
             "a grid (ImageData)");
-  const auto grid = [](const std::string& types) {
+  const auto grid_text = [](const std::string& types) {
     const std::string cells =
         "<Cells><DataArray type='Int32' Name='connectivity'>0 1</DataArray>"
         "<DataArray type='Int32' Name='offsets'>1 2</DataArray>"
@@ -310,8 +310,14 @@ TEST(VtkXml, WhatIsNotParticlesIsNamed) {
     std::string text = replaced(small_file("1 2"), "</Piece>", cells);
     text = replaced(text, "Points=\"2\"", "Points=\"2\" NumberOfCells=\"2\"");
     for (int i = 0; i < 3; ++i) text = replaced(text, "PolyData", "UnstructuredGrid");
-    return scan_text(text).not_particles;
+    return text;
   };
+  const auto grid = [&](const std::string& types) {
+    return scan_text(grid_text(types)).not_particles;
+  };
+  EXPECT_NE(
+      scan_error(replaced(grid_text("1 300"), "UInt8", "Int32")).find("from 0 to 255, found 300"),
+      std::string::npos);
   EXPECT_EQ(grid("1 1"), "");
   EXPECT_EQ(grid("1 2"), "");
   EXPECT_EQ(grid("3 3"), "contacts (lines of two points: 2)");
