@@ -71,7 +71,6 @@ struct Piece {
   std::size_t position = 0;
   Arrays coordinates;  ///< one array, or none in a piece without points
   Arrays point_data;
-  std::size_t cell_arrays = 0;
   CellGroup verts, lines, strips, polys, cells;
 };
 
@@ -160,6 +159,15 @@ class Decoder {
   Buffer block_;  // out of base64, still compressed
   std::vector<std::uint64_t> block_sizes_;
 };
+
+/// What the file holds instead of particles ("a triangle mesh (64 triangles)"), by the types and
+/// lengths of its cells; empty for particles: points without cells, or with vertices only.
+std::string what_instead_of_particles(const Document& document, Decoder& decoder);
+
+/// Throws FormatError where cells name points that are not there; points that no cell names are
+/// worth a line in `problems`.
+void check_cells(const Document& document, const Piece& piece, const CellGroup& group,
+                 Decoder& decoder, std::vector<std::string>& problems);
 
 }  // namespace vtk_xml_file
 }  // namespace bedscope::readers

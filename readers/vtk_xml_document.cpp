@@ -184,8 +184,6 @@ class DocumentReader {
         piece.point_data = read_arrays();
       } else if (name == "Points") {
         piece.coordinates = read_arrays();
-      } else if (name == "CellData") {
-        piece.cell_arrays = read_arrays().size();
       } else if (CellGroup* group = cell_group(piece, name, poly_data)) {
         group->arrays = read_arrays();
       } else {
