@@ -85,6 +85,7 @@ inline std::int64_t skip_words(const char*& begin, const char* end, std::int64_t
       stops &= stops - 1;
     }
   }
+  if (begin > end) begin = end;  // the last word ended with the text
   return passed;
 }
 
