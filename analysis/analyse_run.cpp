@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "analysis/analyse_run.hpp"
 
-#include <tbb/global_control.h>
-#include <tbb/parallel_pipeline.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <condition_variable>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -49,43 +46,35 @@ void for_each_product(const RunSetup& setup, const readers::Series& series, std:
     }
     return;
   }
-  std::vector<std::unique_ptr<Item>> items;
-  std::vector<Item*> idle;
+  // Each thread takes the next snapshot, makes its product and waits for its turn to deliver it: no
+  // more than one product a thread is alive, and the order is that of the series.
   std::mutex mutex;
-  std::size_t next = first;
-  const auto tokens = static_cast<std::size_t>(threads) * 2;
-  for (std::size_t k = 0; k < tokens; ++k) {
-    items.push_back(std::make_unique<Item>());
-    idle.push_back(items.back().get());
+  std::condition_variable delivered;
+  std::size_t next = first, turn = first;
+  std::exception_ptr failure;
+  const auto work = [&] {
+    Item item;
+    std::unique_lock lock(mutex);
+    while (next < last && !failure) {
+      const std::size_t i = next++;
+      lock.unlock();
+      make_item(setup, series, i, item);
+      lock.lock();
+      delivered.wait(lock, [&] { return turn == i; });
+      try {
+        if (!failure) deliver(item);
+      } catch (...) {
+        failure = std::current_exception();
+      }
+      ++turn;
+      delivered.notify_all();
+    }
+  };
+  {
+    std::vector<std::jthread> team;
+    for (int k = 0; k < threads; ++k) team.emplace_back(work);
   }
-  tbb::task_arena arena(threads);
-  arena.execute([&] {
-    tbb::parallel_pipeline(
-        tokens,
-        tbb::make_filter<void, Item*>(tbb::filter_mode::serial_in_order,
-                                      [&](tbb::flow_control& control) -> Item* {
-                                        if (next == last) {
-                                          control.stop();
-                                          return nullptr;
-                                        }
-                                        const std::lock_guard lock(mutex);
-                                        Item* item = idle.back();
-                                        idle.pop_back();
-                                        item->product.snapshot = next++;
-                                        return item;
-                                      }) &
-            tbb::make_filter<Item*, Item*>(tbb::filter_mode::parallel,
-                                           [&](Item* item) {
-                                             make_item(setup, series, item->product.snapshot,
-                                                       *item);
-                                             return item;
-                                           }) &
-            tbb::make_filter<Item*, void>(tbb::filter_mode::serial_in_order, [&](Item* item) {
-              deliver(*item);
-              const std::lock_guard lock(mutex);
-              idle.push_back(item);
-            }));
-  });
+  if (failure) std::rethrow_exception(failure);
 }
 
 /// Equal spacing (to rounding): then every snapshot weighs the same wherever the window begins.

@@ -4,8 +4,6 @@
 find_package(Threads REQUIRED)
 find_package(ZLIB REQUIRED)
 find_package(fmt REQUIRED)
-find_package(TBB REQUIRED)
-find_package(Eigen3 REQUIRED NO_MODULE)
 find_package(OpenCVImgproc REQUIRED MODULE)
 find_package(HDF5 REQUIRED COMPONENTS C)
 find_package(nlohmann_json REQUIRED)
