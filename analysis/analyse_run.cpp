@@ -143,7 +143,7 @@ struct LiveAnalysis::State {
 
   void begin() {
     setup = std::make_unique<RunSetup>(set_up(settings, *series));
-    sums.emplace(*setup, is_auto());
+    sums.emplace(*setup, is_auto(), options.pictures);
   }
 
   bool update() {
@@ -170,7 +170,7 @@ struct LiveAnalysis::State {
     }
     result.label = settings.label;
     result.inputs = series->files();
-    if (options.frames) keep_frames(*setup, *series, result);
+    if (options.pictures) keep_frames(*setup, *series, result);
     seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
     result.seconds = seconds;
     return true;
@@ -194,14 +194,14 @@ struct LiveAnalysis::State {
   /// With uneven spacing the weight of a snapshot depends on where the window begins, so the run is
   /// read twice: once to choose the window, once to average over it.
   void uneven_auto() {
-    sums.emplace(*setup, true);
+    sums.emplace(*setup, true, options.pictures);
     const auto window = add_all(weights_of(*setup, {0, setup->times.size()})).choose_window();
     setup->settings.average = {setup->times[window.first], setup->times.back()};
     const auto range = window_of(*setup);
-    sums.emplace(*setup, false);
+    sums.emplace(*setup, false, options.pictures);
     result = add_all(weights_of(*setup, range)).finish(*series, window);
     setup->settings.average.reset();
-    sums.emplace(*setup, true);
+    sums.emplace(*setup, true, options.pictures);
   }
 
   int threads() const {

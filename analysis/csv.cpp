@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <memory>
 #include <utility>
 
 #include "readers/error.hpp"
@@ -20,23 +21,25 @@ namespace {
 constexpr std::size_t flush_at = 1 << 18;
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
+struct CloseFile {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+
 std::string whole_file(const std::filesystem::path& path) {
   const auto fail = [&] { throw FileError("{}: {}", path.string(), std::strerror(errno)); };
-  std::FILE* file = std::fopen(path.c_str(), "rb");
-  if (file == nullptr) fail();
+  const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
+  if (!file) fail();
+  std::error_code unknown;
+  const std::uintmax_t size = std::filesystem::file_size(path, unknown);
   std::string text;
-  std::size_t count = 0;
-  do {
-    const std::size_t size = text.size();
-    text.resize(size + std::max<std::size_t>(size, 1 << 16));
-    count = std::fread(text.data() + size, 1, text.size() - size, file);
-    text.resize(size + count);
-  } while (count > 0);
-  const bool bad = std::ferror(file) != 0;
-  const int reason = errno;
-  std::fclose(file);
-  errno = reason;
-  if (bad) fail();
+  std::size_t step = unknown ? 1 << 16 : size + 1;  // one read as a rule
+  for (std::size_t count = 1; count > 0; step = 1 << 16) {
+    const std::size_t have = text.size();
+    text.resize(have + step);
+    count = std::fread(text.data() + have, 1, step, file.get());
+    text.resize(have + count);
+  }
+  if (std::ferror(file.get()) != 0) fail();
   return text;
 }
 
@@ -82,12 +85,13 @@ void CsvWriter::put(std::string_view text) {
 }
 
 void CsvWriter::put(double value) {
+  if (std::isnan(value)) {
+    buffer_ += "nan,";  // to_chars would write its sign, which means nothing
+    return;
+  }
   std::array<char, 32> digits{};
-  // to_chars writes a NaN's sign, which means nothing
-  const auto end = std::isnan(value)
-                       ? std::copy_n("nan", 3, digits.data())
-                       : std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
-  buffer_.append(digits.data(), end);
+  buffer_.append(digits.data(),
+                 std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr);
   buffer_ += ',';
 }
 

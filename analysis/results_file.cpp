@@ -111,7 +111,6 @@ void write_setup(Hdf5Group& group, const RunResult& run) {
   group.attribute("time_known", std::int64_t{run.time_known});
   group.attribute("density_known", std::int64_t{run.density_known});
   group.attribute("bytes_read", static_cast<std::int64_t>(run.bytes_read));
-  group.attribute("seconds", run.seconds);
   group.write("types", run.types);
   group.write("problems", run.problems);
   group.write("inputs", run.inputs);

@@ -319,6 +319,8 @@ RunSetup set_up(const RunSettings& settings, const readers::Series& series) {
                    {"id", false},
                    {setup.has_temperature ? settings.temperature_column : "no temperature", false}};
   for (const auto& rule : settings.species) setup.request.push_back({rule.column});
+  setup.request_without_id = setup.request;
+  setup.request_without_id[column_id] = {"no id needed", false};
   return setup;
 }
 

@@ -31,7 +31,7 @@ struct RunSetup {
   RunSettings settings;
   Grid grid;
   std::optional<Kernel> kernel;  ///< set by set_up()
-  readers::Request request;
+  readers::Request request, request_without_id;
   bool domain_assumed = false;
   bool has_velocity = true;
   bool radius_in_dumps = true;

@@ -25,8 +25,9 @@ struct RunSums::Species {
   std::vector<std::size_t> slots;
 };
 
-RunSums::RunSums(const RunSetup& setup, bool keep_blocks)
+RunSums::RunSums(const RunSetup& setup, bool keep_blocks, bool keep_contours)
     : setup_(&setup),
+      keep_contours_(keep_contours),
       fields_(block_power, keep_blocks ? kept_blocks : 2),
       profiles_(0, kept_leaves),
       histograms_(block_power, keep_blocks ? kept_blocks : 2),
@@ -71,6 +72,7 @@ void RunSums::add(SnapshotProduct& product, double weight) {
     cluster.snapshot = i;
     cluster.time = setup_->time_known ? time : undefined;
     area += cluster.area;
+    if (!keep_contours_) cluster.contours = {};
   }
   const auto& grid = setup_->grid;
   occurrence_.push_back({time, static_cast<int>(product.image.clusters.size()),
@@ -426,7 +428,12 @@ RunResult RunSums::finish(const readers::Series& series, const Window& window) c
   means_of(window, result);
   if (window.automatic && !window.steady)
     result.problems.push_back(
-        fmt::format("not steady: no steady part found in the first half of the run; the average "
+        samples_.size() < 20
+            ? fmt::format("{} snapshots are too few to tell whether the run is steady",
+                          samples_.size())
+            : fmt::format("not steady: no steady part begins in the first half of the run; the "
+                          "average starts at {:.6g}",
+                          result.window.from)); the average "
                     "starts at {:.6g}",
                     result.window.from));
   result.bytes_read = bytes_read_;

@@ -17,7 +17,8 @@ namespace bedscope::analysis {
 class RunSums {
  public:
   /// `keep_blocks`: the window is chosen afterwards, so field sums stay apart in blocks.
-  RunSums(const RunSetup& setup, bool keep_blocks);
+  /// `keep_contours`: outlines of clusters are wanted (they are most of what clusters weigh).
+  RunSums(const RunSetup& setup, bool keep_blocks, bool keep_contours);
 
   /// Takes the product of the next snapshot; `weight`: the time it stands for, 0 outside the
   /// window.
@@ -56,6 +57,7 @@ class RunSums {
   void means_of(const Window& window, RunResult& result) const;
 
   const RunSetup* setup_;
+  bool keep_contours_;
   std::vector<SlotKey> slots_;
   Leaves fields_, profiles_, histograms_;
   std::vector<Sample> samples_;

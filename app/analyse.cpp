@@ -69,7 +69,7 @@ void tell(const std::vector<RunResult>& results, const Options& options) {
 
 analysis::AnalysisOptions analysis_options(const Options& options, Progress& progress) {
   return {.threads = options.common.threads,
-          .frames = !options.tables_only,
+          .pictures = !options.tables_only,
           .progress = [&progress](std::size_t done, std::size_t all) { progress.show(done, all); }};
 }
 

@@ -37,8 +37,9 @@ struct Header {
   std::int64_t particles = -1;
   Box box;
   std::vector<std::string> columns;
-  std::uint64_t offset = 0;  // of its first line
-  std::uint64_t lines = 0;   // up to and with "ITEM: ATOMS"
+  std::uint64_t offset = 0;   // of its first line
+  std::uint64_t lines = 0;    // up to and with "ITEM: ATOMS"
+  std::string not_particles;  // what it is instead; then nothing else is known
 };
 
 /// Reads the header of a snapshot line by line. The numbers of lines are counted from the
@@ -73,7 +74,10 @@ class HeaderReader {
         header_.particles = integer("the number of atoms");
         if (header_.particles < 0) fail("count is negative: {}", header_.particles);
       } else if (text.starts_with("NUMBER OF ENTRIES") || text.starts_with("NUMBER OF CONTACTS")) {
-        fail("a dump local ({}): contacts, not particles", text.substr(10));
+        header_.not_particles =
+            fmt::format("line {}: a dump local ({}): contacts, not particles",
+                        line_at(path_, header_.offset) + header_.lines - 1, text.substr(10));
+        return header_;
       } else if (text.starts_with("BOX BOUNDS")) {
         read_box(text.substr(10));
       } else if (text.starts_with("ATOMS")) {
@@ -318,7 +322,9 @@ std::optional<Located> glance(const std::string& path) {
   std::vector<char> buffer;
   ByteWindow window(source, buffer, first_look);
   const auto header = HeaderReader(window, path).next();
-  if (!header || !looks_single(path, *header, window, source.likely_size())) return std::nullopt;
+  if (!header || !header->not_particles.empty() ||
+      !looks_single(path, *header, window, source.likely_size()))
+    return std::nullopt;
   return locate(*header, std::make_shared<const std::vector<std::string>>(header->columns));
 }
 
@@ -347,6 +353,10 @@ FileScan scan(const std::string& path, bool thorough) {
       break;
     }
     if (!header) break;
+    if (!header->not_particles.empty()) {
+      found.not_particles = header->not_particles;
+      return found;
+    }
     if (columns == nullptr || *columns != header->columns)
       columns = std::make_shared<const std::vector<std::string>>(header->columns);
     const auto body = skip_body(window);

@@ -142,7 +142,11 @@ void Series::open_files(const std::string& where, std::vector<std::string> paths
     for (std::size_t i = 0; i < group.paths.size(); ++i) {
       try {
         const auto scan = group.form->scan(group.paths[i], true);
-        if (scan.not_particles.empty()) return false;
+        if (scan.not_particles.empty()) {
+          if (columns_.empty() && !scan.snapshots.empty() && scan.snapshots[0].columns != nullptr)
+            columns_ = *scan.snapshots[0].columns;
+          return false;
+        }
         for (const auto& path : group.paths)
           left_out_.push_back(fmt::format("{}: {}", path, scan.not_particles));
         return true;

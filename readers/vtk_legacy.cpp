@@ -123,8 +123,8 @@ void decode(const Type& type, const char* from, std::size_t tuples, std::size_t 
 /// point arrays, component by component.
 class Walk {
  public:
-  Walk(const std::string& path, std::vector<char>& buffer)
-      : path_(path), source_(path), window_(source_, buffer) {}
+  Walk(const std::string& path, std::vector<char>& buffer, std::size_t piece = ByteWindow::piece)
+      : path_(path), source_(path), window_(source_, buffer, piece) {}
 
   /// Where flat column `column` goes; before run().
   void want(int column, std::vector<double>& values) {
@@ -625,8 +625,9 @@ class Walk {
 };
 
 FileScan scan(const std::string& path, bool thorough) {
+  constexpr std::size_t first_look = 4096;
   std::vector<char> buffer;
-  Walk walk(path, buffer);
+  Walk walk(path, buffer, thorough ? ByteWindow::piece : first_look);
   std::array<std::vector<double>, 3> positions;
   if (thorough) {
     for (int axis = 0; axis < 3; ++axis) walk.want(axis, positions[static_cast<std::size_t>(axis)]);

@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Reads results.h5 of results_file_test.cpp with h5py and with VTK's own reader.
 
-Usage: results_file_judge.py h5py|vtk|both-grids FILE. Exit code 77: the module is not there.
+Usage: results_file_judge.py h5py|vtk|both-grids|guide FILE. Exit code 77: the module is not there.
 The numbers expected are those of example_result.hpp, computed here again.
 """
 
+import os
+import re
 import sys
 
 import numpy as np
@@ -123,8 +125,20 @@ def judge_both_grids(path):
         assert file["runs/2/species/all/fields/holdup"].shape == (2, 2, 3)
 
 
+def judge_guide(path):
+    """Runs the examples of docs/results.md."""
+    guide = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "docs", "results.md")
+    with open(guide, encoding="utf-8") as text:
+        examples = re.findall(r"^```python\n(.*?)^```", text.read(), re.M | re.S)
+    assert len(examples) == 2
+    os.chdir(os.path.dirname(path))
+    for example in examples:
+        exec(example, {})
+
+
+judges = {"h5py": judge_h5py, "vtk": judge_vtk, "both-grids": judge_both_grids, "guide": judge_guide}
 try:
-    {"h5py": judge_h5py, "vtk": judge_vtk, "both-grids": judge_both_grids}[sys.argv[1]](sys.argv[2])
+    judges[sys.argv[1]](sys.argv[2])
 except ImportError as missing:
     print(missing)
     sys.exit(77)
