@@ -11,7 +11,7 @@
 namespace bedscope::analysis {
 
 struct AnalysisOptions {
-  int threads = 0;     ///< 0: all cores; the result does not depend on it, to the bit
+  int threads = 0;       ///< 0: all cores; the result does not depend on it, to the bit
   bool pictures = true;  ///< keep some snapshots whole for the strip of them, and cluster outlines
   std::function<void(std::size_t done, std::size_t all)> progress;
 };

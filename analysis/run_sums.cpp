@@ -431,11 +431,9 @@ RunResult RunSums::finish(const readers::Series& series, const Window& window) c
         samples_.size() < 20
             ? fmt::format("{} snapshots are too few to tell whether the run is steady",
                           samples_.size())
-            : fmt::format("not steady: no steady part begins in the first half of the run; the "
-                          "average starts at {:.6g}",
-                          result.window.from)); the average "
-                    "starts at {:.6g}",
-                    result.window.from));
+            : fmt::format("not steady: no steady part begins in the first half of the run, and the "
+                          "average starts at {:.6g} s",
+                          result.window.from));
   result.bytes_read = bytes_read_;
   return result;
 }
