@@ -35,6 +35,8 @@ def write(path, content):
 
 
 class Command(unittest.TestCase):
+    maxDiff = 500
+
     def setUp(self):
         self.folder = tempfile.mkdtemp(prefix="bedscope_")
         self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
@@ -351,8 +353,8 @@ class BadInput(Command):
         self.post()
         for keys, words in (({"up": "w"}, ("up", '"w"')), ({"cell": "small"}, ("cell",)),
                             ({"cell": [0.0, 0.0025]}, ("cell", "0")), ({"cell": [0.0025]}, ("cell",)),
-                            ({"cell": [-1.0, 0.0025]}, ("cell", "-1")), ({"cell": [1e-9, 1e-9]}, ("cell",)),
-                            ({"up": "x"}, ("up", "lateral")), ({"mapping": "center"}, ("mapping", "centre", "center")),
+                            ({"cell": [-1.0, 0.0025]}, ("cell", "-1")),
+                            ({"up": "x", "lateral": "x"}, ("up", "lateral")), ({"mapping": "center"}, ("mapping", "centre", "center")),
                             ({"density": -1}, ("density", "-1")), ({"average": "automatic"}, ("average", "auto")),
                             ({"average": {"from": 2.0, "to": 1.0}}, ("average",)),
                             ({"domain": {"min": [0, 0, 0], "max": [0.07, 0, 0.3]}}, ("domain", "y")),
@@ -360,6 +362,10 @@ class BadInput(Command):
                             ({"periodic": ["w"]}, ("periodic", "w")), ({"species": {"a": "q"}}, ("species", "q"))):
             with self.subTest(keys=keys):
                 self.fails(self.study(**keys), "study.toml", *words)
+
+    def test_a_grid_beyond_all_memory(self):
+        self.post()
+        self.fails(self.study(cell=[1e-9, 1e-9]), "cell", "1e-09")
 
     def test_density_table_without_a_type_that_occurs(self):
         self.post(types=(1, 2), radii=[5e-4, 5e-4])
@@ -442,6 +448,26 @@ class BadInput(Command):
         shutil.rmtree(self.out)
         write(self.at("all.dump"), b"".join(parts[:2]) + parts[2][: len(parts[2]) // 2] + parts[3])
         self.fails(self.study({"particles": "all.dump"}), "all.dump", "line")
+
+    def test_cut_anywhere(self):
+        """A dump that a killed run leaves may end at any byte of its header or its rows."""
+        self.post([0, 100], count=3)
+        first, second = read(self.dump(0)), read(self.dump(100))
+        header = second.index(b"ITEM: ATOMS") + 140
+        places = [*range(1, header), *range(header, len(second) - 2, 17), len(second) - 3]
+        study = self.study()
+        wrong = []
+        for one_file in (False, True):
+            if one_file:
+                os.remove(self.dump(100))
+            for place in places:
+                cut = second[:place]
+                write(self.dump(0 if one_file else 100), first + cut if one_file else cut)
+                done = self.run_it("analyse", study, "-o", self.out, "--tables-only", "--quiet", "--threads", "1")
+                said = self.summary() if done.returncode == 0 else None
+                if said is None or said[0]["snapshots"] != 1 or not said[0]["problems"]:
+                    wrong.append((one_file, place, cut[-12:], done.stderr.strip()[-60:]))
+        self.assertEqual(wrong[:5], [], f"{len(wrong)} places of {2 * len(places)}")
 
     def test_nothing_but_a_truncated_snapshot(self):
         self.post([0])
@@ -631,6 +657,16 @@ class Follow(Command):
 
     def test_equals_a_fresh_run_of_one_growing_file(self):
         self.check({}, one_file=True)
+
+    def test_waits_for_the_window(self):
+        self.post([0, 100])
+        process = self.start(self.study(average={"from": 0.0019}))
+        time.sleep(0.5)
+        self.assertIsNone(process.poll(), "it ended before the simulation came to the window")
+        self.post([200, 300])
+        self.wait_for(process, 4)
+        self.assertEqual(self.summary()[0]["snapshots"], 2)
+        self.end(process)
 
     def test_a_snapshot_that_comes_late(self):
         self.post(range(0, 1000, 100))

@@ -419,23 +419,24 @@ def rounded(value):
 
 
 class Judge:
-    def __init__(self, limit=5):
+    def __init__(self, relative, limit=5):
+        self.relative, self.intervals = relative, 0
         self.faults, self.compared, self.worst, self.limit = {}, 0, 0.0, limit
 
     def fault(self, where, text):
         self.faults.setdefault(where, []).append(text)
 
     def number(self, where, key, expected, found, scale):
-        """Within RELATIVE of the value; of a difference of large terms, of those terms (`scale`)."""
+        """Within the tolerance of the value; of a difference of large terms, of those terms (`scale`)."""
         self.compared += 1
         expected, found = float(expected), float(found)
         if math.isnan(expected) or math.isnan(found):
             if math.isnan(expected) != math.isnan(found):
                 self.fault(where, f"{key}: expected {expected!r}, found {found!r}")
             return
-        error = abs(found - expected) / max(abs(expected), scale)if expected != found else 0
+        error = abs(found - expected) / max(abs(expected), scale) if expected != found else 0
         self.worst = max(self.worst, error)
-        if error > RELATIVE:
+        if error > self.relative:
             self.fault(where, f"{key}: expected {expected!r}, found {found!r}")
 
     def table(self, name, folder, expected, several):
@@ -483,7 +484,7 @@ class Judge:
         self.compared += 1
         if math.isnan(value):
             return  # whether there is one is the statistics' own business; below: not always nan
-        self.intervals = getattr(self, "intervals", 0) + 1
+        self.intervals += 1
         if value < 0 or math.isinf(value) or (not several) or math.isnan(centre):
             self.fault(where, f"{key}: half-width {value!r} of {centre!r}")
 
@@ -513,12 +514,12 @@ def row_intervals(row):
     return [column for column in row if "_ci95" in column]
 
 
-def judge_study(program, study, folder=None):
+def judge_study(program, study, folder=None, relative=RELATIVE):
     with tempfile.TemporaryDirectory() as temporary:
         folder = folder or temporary
         done = subprocess.run([program, "analyse", study, "-o", folder, "--tables-only", "--quiet"],
                               capture_output=True, text=True)
-        judge = Judge()
+        judge = Judge(relative)
         if done.returncode != 0:
             judge.fault("exit code", f"{done.returncode}: {done.stderr}")
             return judge.report(study)
@@ -534,6 +535,8 @@ def judge_study(program, study, folder=None):
                 expected[name] |= rows
         for name, rows in expected.items():
             judge.table(name, folder, rows, several)
+        if several and not judge.intervals:
+            judge.fault("intervals", "none at all")
         return judge.report(study)
 
 
