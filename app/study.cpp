@@ -189,7 +189,7 @@ std::array<double, 3> vector3(Table& table, std::string_view key) {
   if (!values || values->size() != 3) {
     const auto* node = table.find(key);
     if (node == nullptr)
-      throw InputError("{} is missing: expected three numbers [m]", table.key(key));
+      table.fail(table.raw(), "{} is missing: expected three numbers [m]", table.key(key));
     table.fail(*node, "{}: expected three numbers [m]", table.key(key));
   }
   return {(*values)[0], (*values)[1], (*values)[2]};
