@@ -84,7 +84,7 @@ Canvas axial_canvas(Runs runs, std::span<const std::vector<Curve>> panels,
     panel.x = rounded_axis(holdup.lo, holdup.hi, std::max(2, static_cast<int>(each / 13)));
     panel.y = exact_axis(z.lo * unit.factor, z.hi * unit.factor, 8);
     panel.x_label =
-        literal(text_width(holdup_label(runs)) > each + gap ? "φ [-]" : holdup_label(runs));
+        literal(holdup_label(runs, text_width(holdup_label(runs)) > each + gap ? "φ" : "holdup φ"));
     panel.y_numbers = p == 0;
     if (p == 0) panel.y_label = literal(fmt::format("height z [{}]", unit.name));
     canvas.open(panel);
@@ -132,14 +132,15 @@ Figure axial_species_figure(Runs runs) {
       const analysis::SpeciesResult* one = find_species(runs[r], types[t]);
       if (one == nullptr || !seen(one->axial)) continue;
       const bool single = runs.size() == 1;
-      curves.push_back({single ? types[t] : runs[r].label, single ? t : r, &one->axial});
+      curves.push_back(
+          {single ? species_title(types[t]) : runs[r].label, single ? t : r, &one->axial});
     }
     if (curves.empty()) continue;
     if (runs.size() == 1 && !panels.empty()) {
       panels[0].push_back(curves[0]);
     } else {
       panels.push_back(std::move(curves));
-      if (runs.size() > 1) titles.push_back("type " + types[t]);
+      if (runs.size() > 1) titles.push_back(species_title(types[t]));
     }
   }
   if (panels.empty()) return left_out(name, title, "no axial profile of a type in the results");

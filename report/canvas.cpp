@@ -16,8 +16,12 @@ constexpr double png_scale = 300.0 / 96;       // PNG at 300 dpi
 constexpr double line_height = 4.2;            // of a legend's row [mm]
 constexpr double sample_width = 8, gap = 1.5;  // of a legend's entry [mm]
 
+double sample_room(const LegendEntry& entry) {
+  return entry.line.empty() && entry.marker.empty() ? 0 : sample_width + gap;
+}
+
 double entry_width(const LegendEntry& entry) {
-  return sample_width + gap + text_width(entry.label) + 4;
+  return sample_room(entry) + text_width(entry.label) + 4;
 }
 
 /// Entries of equal width, as many as fit side by side.
@@ -99,8 +103,8 @@ void Canvas::axis(char name, const Axis& range, bool numbers, bool map) {
   body_ += fmt::format("  set {0}range [{1:.10g}:{2:.10g}]; set format {0} '{3}'\n", name, range.lo,
                        range.hi, format);
   body_ += fmt::format("  set {0}tics {1:.10g},{2:.10g},{3:.10g} {4} scale 0.5,0.25 offset {5}\n",
-                       name, range.first, range.step, range.hi, map ? "out nomirror" : "in mirror",
-                       name == 'x' ? "0,0.3" : "0.4,0");
+                       name, range.first, range.step, range.last,
+                       map ? "out nomirror" : "in mirror", name == 'x' ? "0,0.3" : "0.4,0");
 }
 
 void Canvas::user_label(std::string_view user_text, double x, double y, std::string_view words) {
@@ -114,7 +118,9 @@ void Canvas::open(const Panel& panel) {
       "  set lmargin at screen {:.5f}; set rmargin at screen {:.5f}\n"
       "  set bmargin at screen {:.5f}; set tmargin at screen {:.5f}\n",
       panel.left / width_, right / width_, panel.bottom / height_, top / height_);
-  axis('x', panel.x, panel.x_numbers, panel.map);
+  Axis x = panel.x;
+  if (panel.neighbour) x.last -= 0.05 * x.step;
+  axis('x', x, panel.x_numbers, panel.map);
   axis('y', panel.y, panel.y_numbers, panel.map);
   if (panel.map) {
     command(
@@ -168,8 +174,8 @@ void Canvas::legend(std::span<const LegendEntry> entries, double left, double to
     if (!entry.marker.empty()) {
       label("''", x + sample_width / 2, y, "center point " + entry.marker);
     }
-    const double room = std::min(column_width, width) - sample_width - gap;
-    user_label(shortened(entry.label, room), x + sample_width + gap, y, "left");
+    const double room = std::min(column_width, width) - sample_room(entry);
+    user_label(shortened(entry.label, room), x + sample_room(entry), y, "left");
   }
 }
 
@@ -182,7 +188,7 @@ void Canvas::colour_bar(double left, double bottom, double width, const Axis& ra
                   left / width_, bottom / height_, width / width_, thickness / height_));
   // The numbers are labels of ours: gnuplot has them below the bar only.
   command("unset cbtics");
-  const auto ticks = static_cast<int>(std::floor((range.hi - range.first) / range.step + 1e-6));
+  const auto ticks = static_cast<int>(std::floor((range.last - range.first) / range.step + 1e-6));
   for (int i = 0; i <= ticks; ++i) {
     const double value = range.first + i * range.step;
     const double x = left + width * (value - range.lo) / (range.hi - range.lo);

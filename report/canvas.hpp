@@ -21,6 +21,7 @@ struct Panel {
   bool x_numbers = true, y_numbers = true;
   std::string x_label, y_label;
   double y_label_gap = 11;  ///< from the frame to the middle of the y label [mm]
+  bool neighbour = false;   ///< another panel is close at the right: no number at that edge
   bool zero_line = false;   ///< thin and grey, where y has both signs
   bool map = false;         ///< ticks outwards, grey where there are no data
 };

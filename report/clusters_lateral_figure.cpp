@@ -116,33 +116,40 @@ void add_points(Canvas& canvas, const RunResult& run, const Row& row, double x_f
 }
 
 void add_means(Canvas& canvas, const RunResult& run, std::size_t r, const Row& row, double x_factor,
-               std::vector<std::string>& layers) {
+               double cap, std::vector<std::string>& layers) {
   const CurveStyle style = curve_style(r);
-  std::string curve;
+  std::string rows;
+  std::vector<double> places;
+  std::vector<Estimate> means;
   for (const BinnedMean& bin : row.means[r]) {
-    curve += data_row({x_factor * bin.x, bin.mean.value, bin.mean.ci95});
+    places.push_back(x_factor * bin.x);
+    means.push_back(bin.mean);
+    rows += data_row({places.back(), bin.mean.value, bin.mean.ci95});
   }
-  const std::size_t block = canvas.block(run.label + ": x, mean of " + row.label + ", ci95", curve);
-  const std::string words[] = {
-      bar_words(canvas, style.colour, 1.0),
-      fmt::format("using 1:2 with lines {} lw 1.3", style.line),
-      fmt::format("using 1:2 with points {} lc rgb '{}'", style.marker, style.colour)};
-  for (const std::string& one : words) layers.push_back(Canvas::layer(block, one));
+  if (const std::string bars = bar_rows(places, means, cap); !bars.empty()) {
+    layers.push_back(
+        Canvas::layer(canvas.block("bars of " + run.label + ": x, " + row.label, bars),
+                      fmt::format("using 1:2 with lines lw 1.0 lc rgb '{}'", style.colour)));
+  }
+  const std::size_t block = canvas.block(run.label + ": x, mean of " + row.label + ", ci95", rows);
+  layers.push_back(Canvas::layer(block, fmt::format("using 1:2 with lines {} lw 1.3", style.line)));
+  layers.push_back(Canvas::layer(
+      block, fmt::format("using 1:2 with points {} lc rgb '{}'", style.marker, style.colour)));
 }
 
 }  // namespace
 
 Figure clusters_lateral_figure(Runs runs) {
-  const std::string name = "clusters_lateral", title = "Clusters across the riser";
+  const std::string name = "clusters_lateral", title = "Clusters against lateral position";
   if (std::all_of(runs.begin(), runs.end(), [](const auto& run) { return run.clusters.empty(); })) {
     return left_out(name, title, "no clusters found in the window");
   }
-  const Row rows[] = {make_row(runs, "cluster holdup [-]", &Cluster::holdup),
+  const Row rows[] = {make_row(runs, holdup_label(runs, "cluster holdup"), &Cluster::holdup),
                       make_row(runs, "cluster velocity v_z [m/s]", &Cluster::velocity_z)};
   // A panel a run with its points, and one more where the means of all are compared.
   const bool several = runs.size() > 1, points = runs.size() <= 5;
   const std::size_t own = points ? runs.size() : 0, columns = own + (several ? 1 : 0);
-  constexpr double left = 19, bottom = 11, gap = 4, row_height = 50, top = 5.5;
+  constexpr double left = 19, bottom = 11, gap = 4, row_height = 54, top = 5.5;
   const double width =
       std::min((page_width - left - 4 + gap) / static_cast<double>(columns) - gap, 80.0);
   const double total = left + static_cast<double>(columns) * (width + gap) - gap + 4;
@@ -172,17 +179,19 @@ Figure clusters_lateral_figure(Runs runs) {
       if (c == 0) panel.y_label = literal(row.label);
       panel.y_label_gap = 13;
       panel.zero_line = true;
+      panel.neighbour = c + 1 < columns;
       canvas.open(panel);
       if (upper && several) {
         const std::string words = c < own ? runs[c].label : "means of all runs";
         canvas.user_label(shortened(words, width + gap), panel.left + width / 2,
                           panel.bottom + row_height + 2.6);
       }
+      const double cap = bar_cap * (panel.x.hi - panel.x.lo) / width;
       std::vector<std::string> layers;
       for (std::size_t r = 0; r < runs.size(); ++r) {
         if (c < own && c != r) continue;
         if (c < own) add_points(canvas, runs[r], row, unit.factor, layers);
-        add_means(canvas, runs[r], r, row, unit.factor, layers);
+        add_means(canvas, runs[r], r, row, unit.factor, cap, layers);
       }
       canvas.draw(layers);
     }

@@ -66,7 +66,8 @@ std::vector<Quantity> quantities(Runs runs) {
   return found;
 }
 
-constexpr double left = 15, bottom = 11, names_room = 5.5, bar_room = 13, gap = 3, group_gap = 8;
+constexpr double left = 15, bottom = 11, names_room = 5.5, bar_room = 13, gap = 3, group_gap = 8,
+                 shortest_bar = 36;
 
 /// Where the panels are. Tall domains: quantities side by side, each with all runs; others: a row
 /// of runs for each quantity.
@@ -74,11 +75,12 @@ struct Layout {
   PanelGrid panel;
   bool rows = false;
   double group_width = 0, group_height = 0;
+  double slot = 0;               ///< for a group and its colour bar [mm]
   double width = 0, height = 0;  ///< of all
 
   double x(std::size_t quantity, std::size_t run) const {
-    const double group = rows ? 0 : static_cast<double>(quantity) * (group_width + group_gap);
-    return left + group + static_cast<double>(run) * (panel.width + gap);
+    const double group = rows ? 0 : static_cast<double>(quantity) * (slot + group_gap);
+    return left + group + (slot - group_width) / 2 + static_cast<double>(run) * (panel.width + gap);
   }
   double y(std::size_t quantity, std::size_t quantities) const {
     return bottom + (rows ? static_cast<double>(quantities - 1 - quantity) * group_height : 0);
@@ -99,8 +101,9 @@ Layout layout(std::size_t quantities, std::size_t runs, double lx, double lz) {
   found.panel = found.rows ? row : beside;
   found.group_width = r * (found.panel.width + gap) - gap;
   found.group_height = bottom + found.panel.height + above;
-  found.width = left + found.group_width + 6;
-  if (!found.rows) found.width += (q - 1) * (found.group_width + group_gap);
+  found.slot = std::max(found.group_width, shortest_bar);
+  found.width = left + found.slot + 6;
+  if (!found.rows) found.width += (q - 1) * (found.slot + group_gap);
   found.height = found.rows ? q * found.group_height : found.group_height;
   return found;
 }
@@ -116,12 +119,12 @@ void draw_quantity(Canvas& canvas, Runs runs, std::span<const Quantity> all, std
   const Range x = domain_range(runs, analysis::lateral), z = domain_range(runs, analysis::up);
   const Unit x_unit = length_unit(x.hi - x.lo), z_unit = length_unit(z.hi - z.lo);
   const double y0 = places.y(q, all.size()), top = y0 + places.panel.height;
-  const double bar = std::clamp(places.group_width, 34.0, 60.0);
+  const double bar = std::clamp(places.group_width, shortest_bar, 60.0);
   const double middle = places.x(q, 0) + places.group_width / 2;
   const auto [lo, hi] = std::pair(quantity.range.lo, quantity.range.hi);
   canvas.command(quantity.holdup ? viridis() : diverging(lo, hi));
   canvas.command(fmt::format("set cbrange [{:.10g}:{:.10g}]", lo, hi));
-  canvas.colour_bar(std::max(middle - bar / 2, left - 8), top + names_room, bar, quantity.range,
+  canvas.colour_bar(middle - bar / 2, top + names_room, bar, quantity.range,
                     literal(quantity.title));
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const RunResult& run = runs[r];
@@ -135,6 +138,7 @@ void draw_quantity(Canvas& canvas, Runs runs, std::span<const Quantity> all, std
     panel.y = exact_axis(z.lo * z_unit.factor, z.hi * z_unit.factor, 8);
     panel.y_numbers = first;
     panel.map = true;
+    panel.neighbour = r + 1 < runs.size();
     panel.x_label = literal(fmt::format("x [{}]", x_unit.name));
     if (first) panel.y_label = literal(fmt::format("height z [{}]", z_unit.name));
     canvas.open(panel);
@@ -168,9 +172,10 @@ Figure fields_figure(Runs runs) {
   const Layout places = layout(all.size(), runs.size(), x.hi - x.lo, z.hi - z.lo);
 
   // Names above the panels where they fit, else letters that lines at the top explain.
-  const bool letters = std::any_of(runs.begin(), runs.end(), [&](const RunResult& run) {
-    return text_width(run.label) > places.panel.width + gap - 1;
-  });
+  const bool letters =
+      runs.size() > 1 && std::any_of(runs.begin(), runs.end(), [&](const RunResult& run) {
+        return text_width(run.label) > places.panel.width + gap - 1;
+      });
   std::vector<LegendEntry> names;
   for (std::size_t r = 0; r < runs.size() && letters; ++r) {
     names.push_back({"", "", letter(r) + "  " + runs[r].label});
@@ -178,13 +183,13 @@ Figure fields_figure(Runs runs) {
   const double width = std::max(places.width, 85.0);
   const double room = letters ? Canvas::legend_height(names, width - left) + 1 : 0;
   Canvas canvas(width, places.height + room);
-  if (letters) canvas.legend(names, left - 8, canvas.height() - 0.5, width - left);
+  if (letters) canvas.legend(names, left, canvas.height() - 0.5, width - left);
   for (std::size_t q = 0; q < all.size(); ++q) draw_quantity(canvas, runs, all, q, places, letters);
 
   const bool all_fluxes =
       std::all_of(runs.begin(), runs.end(), [](const RunResult& run) { return run.density_known; });
   return drawn(canvas, name, title,
-               fmt::format("Holdup, solids velocity ⟨φ v_z⟩/⟨φ⟩{}, positive upwards. {}. {}. "
+               fmt::format("Holdup, solids velocity ⟨φ v_z⟩/⟨φ⟩{}, positive (red) upwards. {}. {}. "
                            "Colours saturate beyond the central 99 % of the cells; grey: no solids "
                            "seen.{}{}",
                            all_fluxes ? " and mass flux ρ⟨φ v_z⟩" : "", window_words(runs),

@@ -52,10 +52,10 @@ Figure left_out(std::string name, std::string title, std::string why) {
   return figure;
 }
 
-std::string holdup_label(Runs runs) {
+std::string holdup_label(Runs runs, std::string_view what) {
   const bool assumed = std::any_of(runs.begin(), runs.end(),
                                    [](const RunResult& run) { return run.domain_assumed; });
-  return assumed ? "holdup φ [-], domain assumed" : "holdup φ [-]";
+  return fmt::format("{} [-]{}", what, assumed ? ", domain assumed" : "");
 }
 
 std::string time_label(Runs runs) {
@@ -105,6 +105,12 @@ std::vector<std::string> species_names(Runs runs) {
   }
   if (names.size() == 1) names.clear();
   return names;
+}
+
+std::string species_title(const std::string& type) {
+  if (type == "all") return "all types";
+  const bool number = type.find_first_not_of("0123456789") == std::string::npos;
+  return number ? "type " + type : type;
 }
 
 const SpeciesResult* find_species(const RunResult& run, const std::string& type) {
@@ -232,10 +238,17 @@ std::string estimate_band(std::span<const double> along, std::span<const Estimat
   return band_outline(places, low, high);
 }
 
-std::string bar_words(const Canvas& canvas, const std::string& colour, double line_width) {
-  return fmt::format(
-      "using 1:($2-$3):(0):(2*$3) with vectors heads size screen {:.5f},90 lw {} lc rgb '{}'",
-      0.4 / canvas.width(), line_width, colour);
+std::string bar_rows(std::span<const double> x, std::span<const Estimate> estimates, double cap) {
+  std::string rows;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double low = estimates[i].value - estimates[i].ci95;
+    const double high = estimates[i].value + estimates[i].ci95;
+    if (!std::isfinite(low) || !std::isfinite(high)) continue;
+    rows += data_row({x[i] - cap, low}) + data_row({x[i] + cap, low}) + data_row({x[i], low}) +
+            data_row({x[i], high}) + data_row({x[i] - cap, high}) + data_row({x[i] + cap, high}) +
+            "\n";
+  }
+  return rows;
 }
 
 std::string band_words(const std::string& colour) {

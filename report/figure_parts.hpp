@@ -16,6 +16,7 @@ using Runs = std::span<const analysis::RunResult>;
 
 constexpr std::string_view interval_words = "95 % confidence interval of the mean";
 
+constexpr double bar_cap = 0.4;                        ///< half width of an error bar's caps [mm]
 constexpr double page_width = 170, page_height = 215;  ///< room for a figure [mm]
 
 Figure fields_figure(Runs runs);
@@ -33,18 +34,21 @@ Figure temperature_pdf_figure(Runs runs);
 Figure drawn(const Canvas& canvas, std::string name, std::string title, std::string caption);
 Figure left_out(std::string name, std::string title, std::string why);
 
-/// "holdup φ [-]", with "domain assumed" where a run's domain was.
-std::string holdup_label(Runs runs);
+/// "holdup φ [-]", with "domain assumed" where a run's domain was; `what` replaces "holdup φ".
+std::string holdup_label(Runs runs, std::string_view what = "holdup φ");
 /// "time t [s]" or "step [-]".
 std::string time_label(Runs runs);
 /// "Averaging window: 10 to 20 s (1001 snapshots)", for each run where they differ.
 std::string window_words(Runs runs);
-/// "Mapping kernel and grid: exact, 28 × 600 cells of 2.5 × 2.5 mm", for each run where they differ.
+/// "Mapping kernel and grid: exact, 28 × 600 cells of 2.5 × 2.5 mm", for each run where they
+/// differ.
 std::string mapping_words(Runs runs);
 std::string threshold_words(Runs runs);
 
 /// The types besides "all", of all runs in order of appearance; empty where there is only one.
 std::vector<std::string> species_names(Runs runs);
+/// "all types", "type 1", or the name of a rule.
+std::string species_title(const std::string& type);
 const analysis::SpeciesResult* find_species(const analysis::RunResult& run,
                                             const std::string& type);
 /// Bounds of all runs' domains along an axis.
@@ -84,9 +88,11 @@ std::string band_outline(std::span<const double> along, std::span<const double> 
 /// The 95 % band of a curve as such outlines, `along` being multiplied by `factor`.
 std::string estimate_band(std::span<const double> along,
                           std::span<const analysis::Estimate> estimates, double factor);
-/// gnuplot's words to draw error bars of rows "x, value, half-width". Not `with yerrorbars`:
-/// gnuplot blanks what lies beneath their middle where the terminal scales points.
-std::string bar_words(const Canvas& canvas, const std::string& colour, double line_width);
+/// Error bars as one polyline with gaps (rows "x value"), caps reaching `cap` to both sides. Not by
+/// `with yerrorbars`: that blanks what lies beneath the middle, and makes the SVG five times
+/// larger.
+std::string bar_rows(std::span<const double> x, std::span<const analysis::Estimate> estimates,
+                     double cap);
 /// gnuplot's words to fill outlines.
 std::string band_words(const std::string& colour);
 /// The rows of an image, one a line of cells, lateral fastest.

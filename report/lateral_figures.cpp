@@ -15,6 +15,8 @@ using analysis::RunResult;
 
 namespace {
 
+constexpr double row_height = 38;  // [mm]
+
 struct Row {
   std::string label;
   std::vector<Estimate> Profile::*values;
@@ -46,7 +48,10 @@ std::vector<double> all_heights(Runs runs) {
 }
 
 std::vector<Row> lateral_rows(Runs runs, std::span<const double> heights) {
-  std::vector<Row> rows{{holdup_label(runs), &Profile::holdup, {}},
+  // Short enough for the height of a row.
+  const std::string words = holdup_label(runs);
+  const std::string label = text_width(words) > row_height ? holdup_label(runs, "φ") : words;
+  std::vector<Row> rows{{label, &Profile::holdup, {}},
                         {"v_z [m/s]", &Profile::velocity_z, {}},
                         {"G_z [kg/(m² s)]", &Profile::mass_flux_z, {}}};
   for (Row& row : rows) {
@@ -66,18 +71,26 @@ std::vector<Row> lateral_rows(Runs runs, std::span<const double> heights) {
 
 /// Error bars where there is room for them, a band where the cells are too narrow.
 void lateral_layers(Canvas& canvas, const std::string& label, std::size_t run,
-                    const Profile& profile, const Row& row, double x_factor, double width,
+                    const Profile& profile, const Row& row, double x_factor, const Panel& panel,
                     std::vector<std::string>& back, std::vector<std::string>& front) {
   const std::vector<Estimate>& values = profile.*row.values;
   const CurveStyle style = curve_style(run);
-  const bool bars = static_cast<double>(values.size()) < width / 0.7;
+  const double cap = bar_cap * (panel.x.hi - panel.x.lo) / panel.width;
+  const bool with_bars = static_cast<double>(values.size()) < panel.width / 0.7;
   std::string rows;
+  std::vector<double> places;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    rows += data_row({x_factor * profile.coordinate[i], values[i].value, values[i].ci95});
+    places.push_back(x_factor * profile.coordinate[i]);
+    rows += data_row({places.back(), values[i].value, values[i].ci95});
   }
   const std::size_t block = canvas.block(label + ": x, " + row.label + ", ci95", rows);
-  if (bars) {
-    back.push_back(Canvas::layer(block, bar_words(canvas, style.colour, 0.6)));
+  if (with_bars) {
+    const std::string bars = bar_rows(places, values, cap);
+    if (!bars.empty()) {
+      back.push_back(
+          Canvas::layer(canvas.block("bars of " + label + ": x, " + row.label, bars),
+                        fmt::format("using 1:2 with lines lw 0.6 lc rgb '{}'", style.colour)));
+    }
     front.push_back(Canvas::layer(
         block, fmt::format("using 1:2 with points {} lc rgb '{}'", style.marker, style.colour)));
   } else if (const std::string band = estimate_band(profile.coordinate, values, x_factor);
@@ -94,7 +107,7 @@ void lateral_layers(Canvas& canvas, const std::string& label, std::size_t run,
 
 Figure lateral_figure(Runs runs, std::span<const double> heights, std::span<const Row> rows,
                       const std::string& name, const std::string& title) {
-  constexpr double left = 19, bottom = 11, gap = 4, row_height = 38, top = 5.5;
+  constexpr double left = 19, bottom = 11, gap = 4, top = 5.5;
   const std::vector<LegendEntry> entries = run_legend(runs, true);
   const double legend = runs.size() > 1 ? Canvas::legend_height(entries, page_width - left) + 1 : 0;
   const auto n = static_cast<double>(rows.size());
@@ -122,6 +135,7 @@ Figure lateral_figure(Runs runs, std::span<const double> heights, std::span<cons
       if (h == 0) panel.y_label = literal(rows[q].label);
       panel.y_label_gap = 15;
       panel.zero_line = true;
+      panel.neighbour = h + 1 < heights.size();
       canvas.open(panel);
       if (q == 0) {
         canvas.label(literal(fmt::format("z = {} m", number(heights[h]))), panel.left + width / 2,
@@ -131,7 +145,7 @@ Figure lateral_figure(Runs runs, std::span<const double> heights, std::span<cons
       for (std::size_t r = 0; r < runs.size(); ++r) {
         const Profile* profile = at_height(runs[r], heights[h]);
         if (profile == nullptr) continue;
-        lateral_layers(canvas, runs[r].label, r, *profile, rows[q], unit.factor, width, back,
+        lateral_layers(canvas, runs[r].label, r, *profile, rows[q], unit.factor, panel, back,
                        front);
       }
       back.insert(back.end(), front.begin(), front.end());

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fstream>
@@ -126,9 +127,14 @@ std::string problem_list(std::span<const RunResult> runs) {
   std::string list;
   for (const RunResult& run : runs) {
     std::vector<std::string> problems = run.problems;
-    if (run.domain_assumed)
-      problems.emplace_back("domain assumed: the dump’s box; every holdup depends on it");
-    if (!run.window.steady) problems.emplace_back("no steady part was found");
+    const auto add = [&](bool wrong, std::string_view word, const char* text) {
+      const auto said = [&](const std::string& one) { return one.find(word) != std::string::npos; };
+      if (wrong && std::none_of(problems.begin(), problems.end(), said))
+        problems.emplace_back(text);
+    };
+    add(run.domain_assumed, "domain", "domain assumed: every holdup depends on the dump’s box");
+    add(!run.window.steady, "steady", "no steady part was found");
+    add(!run.time_known, "time", "no time step is known: times are steps");
     for (const std::string& problem : problems) {
       list += fmt::format("<li><b>{}</b>: {}</li>\n", escaped(run.label), escaped(problem));
     }
@@ -158,6 +164,18 @@ std::string link_list(const fs::path& folder) {
          "folders <a href=\"tables/\">tables/</a> and <a href=\"figures/\">figures/</a></p>\n";
 }
 
+/// A figure as a data URI: a picture of its own rather than SVG in the page, as the names inside
+/// would clash. A figure of very many marks is smaller as PNG.
+std::string picture(const Figure& figure, const fs::path& folder, bool png) {
+  constexpr std::size_t large = 500'000;
+  const std::string svg = content(folder / "figures" / (figure.name + ".svg"));
+  if (svg.size() > large && png) {
+    const std::string dots = content(folder / "figures" / (figure.name + ".png"));
+    if (dots.size() < svg.size()) return "data:image/png;base64," + base64(dots);
+  }
+  return "data:image/svg+xml;base64," + base64(svg);
+}
+
 std::string figure_section(const Figure& figure, const fs::path& folder, bool png) {
   std::string text =
       fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n", figure.name, escaped(figure.title));
@@ -169,13 +187,10 @@ std::string figure_section(const Figure& figure, const fs::path& folder, bool pn
     if (ending == "png" && !png) continue;
     links += fmt::format(" <a href=\"figures/{}.{}\">{}</a>", figure.name, ending, ending);
   }
-  // A picture of its own rather than SVG in the page: the names inside cannot clash.
   return text + fmt::format(
-                    "<figure><img alt=\"{}\" style=\"width:{:.0f}mm\" "
-                    "src=\"data:image/svg+xml;base64,{}\">\n<figcaption>{} <span "
-                    "class=\"files\">[{} ]</span></figcaption></figure>\n</section>\n",
-                    escaped(figure.title), figure.width,
-                    base64(content(folder / "figures" / (figure.name + ".svg"))),
+                    "<figure><img alt=\"{}\" style=\"width:{:.0f}mm\" src=\"{}\">\n<figcaption>{} "
+                    "<span class=\"files\">[{} ]</span></figcaption></figure>\n</section>\n",
+                    escaped(figure.title), figure.width, picture(figure, folder, png),
                     escaped(figure.caption), links);
 }
 

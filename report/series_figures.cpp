@@ -133,7 +133,8 @@ Figure inventory_figure(Runs runs) {
     panel.width = page_width - left - 4;
     panel.height = row_height;
     panel.x = exact_axis(time.lo, time.hi, 8);
-    panel.y = rounded_axis(rows[q].range.lo, rows[q].range.hi, 5);
+    const Range padded = rows[q].range.padded();
+    panel.y = rounded_axis(padded.lo, padded.hi, 5);
     panel.x_numbers = q + 1 == rows.size();
     if (panel.x_numbers) panel.x_label = literal(time_label(runs));
     panel.y_label = literal(rows[q].label);
@@ -183,7 +184,7 @@ Figure occurrence_figure(Runs runs) {
     panel.height = row_height;
     panel.x = exact_axis(time.lo, time.hi, 8);
     panel.y = rounded_axis(0, 1.08 * clusters.hi, row_height < 25 ? 3 : 5);
-    if (panel.y.step < 1) panel.y = {0, clusters.hi + 0.5, 0, 1, 0};
+    if (panel.y.step < 1) panel.y = {0, clusters.hi + 0.5, 0, 1, clusters.hi, 0};
     panel.x_numbers = r + 1 == runs.size();
     if (panel.x_numbers) panel.x_label = literal(time_label(runs));
     panel.y_label = literal("clusters [-]");

@@ -107,6 +107,18 @@ void overlay_layers(Canvas& canvas, const Overlay& overlay, const std::string& o
   }
 }
 
+/// Decimals that give the frames' times as they are, four at most.
+int time_decimals(const RunResult& run) {
+  int decimals = 0;
+  for (double unit = 1; decimals < 4; ++decimals, unit /= 10) {
+    const auto whole = [&](const Frame& frame) {
+      return std::abs(frame.time / unit - std::round(frame.time / unit)) * unit < 1e-6;
+    };
+    if (std::all_of(run.frames.begin(), run.frames.end(), whole)) break;
+  }
+  return decimals;
+}
+
 Figure snapshots_figure(const RunResult& run, const std::string& name, const std::string& title) {
   using enum analysis::Axis;
   constexpr double left = 15, bottom = 11, gap_x = 2.5, gap_z = 5, top = 19;
@@ -133,9 +145,7 @@ Figure snapshots_figure(const RunResult& run, const std::string& name, const std
   canvas.command(fmt::format("set cbrange [0:{:.10g}]", bar.hi));
   canvas.colour_bar(left, canvas.height() - 13, 50, bar, literal(holdup_label({&run, 1})));
 
-  const double last_time = run.frames[count - 1].time;
-  const int decimals =
-      exact_axis(run.frames[0].time, last_time, static_cast<int>(count)).decimals + 1;
+  const int decimals = time_decimals(run);
   for (std::size_t f = 0; f < count; ++f) {
     const Frame& frame = run.frames[f];
     const std::size_t column = f % grid.columns, row = f / grid.columns;
@@ -151,6 +161,7 @@ Figure snapshots_figure(const RunResult& run, const std::string& name, const std
     panel.x_numbers = last;
     panel.y_numbers = column == 0;
     panel.map = true;
+    panel.neighbour = column + 1 < grid.columns && f + 1 < count;
     if (last) panel.x_label = literal(fmt::format("x [{}]", x_unit.name));
     if (column == 0) panel.y_label = literal(fmt::format("height z [{}]", z_unit.name));
     canvas.open(panel);

@@ -10,13 +10,15 @@
 namespace bedscope::report {
 namespace {
 
-constexpr double char_width = 1.75;  // of DejaVu Sans at 8.25 pt, a little above its mean [mm]
-
-std::size_t characters(std::string_view text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
-    return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
-  }));
+/// Width of a character of DejaVu Sans at 8.25 pt [mm].
+double char_width(char c) {
+  if (std::string_view("ijlI.,:;'|! ").find(c) != std::string_view::npos) return 0.95;
+  if (std::string_view("frt()[]/-\"").find(c) != std::string_view::npos) return 1.25;
+  if (std::string_view("mwMW@%").find(c) != std::string_view::npos) return 2.9;
+  return c >= 'A' && c <= 'Z' ? 2.1 : 1.85;
 }
+
+bool begins_character(char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }
 
 /// The smallest of 1, 2, 5 x 10^n that is not below `rough`.
 double round_step(double rough) {
@@ -78,6 +80,7 @@ Axis rounded_axis(double lo, double hi, int intervals) {
     if (attempt == 0) axis.step = round_step(axis.step * 1.01);
   }
   axis.first = axis.lo;
+  axis.last = axis.hi;
   axis.decimals = decimals_of(axis.step);
   return axis;
 }
@@ -86,7 +89,7 @@ Axis exact_axis(double lo, double hi, int intervals) {
   widen(lo, hi);
   Axis axis;
   axis.lo = lo;
-  axis.hi = hi;
+  axis.hi = axis.last = hi;
   axis.step = round_step((hi - lo) / intervals);
   axis.first = axis.step * std::ceil(lo / axis.step - 1e-9);
   axis.decimals = decimals_of(axis.step);
@@ -144,27 +147,21 @@ std::string plus_minus(const analysis::Estimate& estimate, double factor) {
 }
 
 double text_width(std::string_view text) {
-  return char_width * static_cast<double>(characters(text));
+  double width = 0;
+  for (const char c : text) width += begins_character(c) ? char_width(c) : 0;
+  return width;
 }
 
 std::string shortened(const std::string& text, double width) {
   if (text_width(text) <= width) return text;
-  const auto room = static_cast<std::size_t>(std::max(1.0, width / char_width - 1));
-  std::size_t seen = 0, end = 0;
+  double used = char_width('m');  // the ellipsis
+  std::size_t end = 0;
   while (end < text.size()) {
-    if ((static_cast<unsigned char>(text[end]) & 0xC0) != 0x80 && seen++ == room) break;
+    used += begins_character(text[end]) ? char_width(text[end]) : 0;
+    if (begins_character(text[end]) && used > width) break;
     ++end;
   }
   return text.substr(0, end) + "…";
-}
-
-std::string listed(std::span<const std::string> words) {
-  std::string text;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    if (i > 0) text += i + 1 == words.size() ? " and " : ", ";
-    text += words[i];
-  }
-  return text;
 }
 
 }  // namespace bedscope::report

@@ -22,9 +22,9 @@ struct CurveStyle {
 };
 CurveStyle curve_style(std::size_t i);
 
-/// The range of an axis and its ticks: first, first + step ... within [lo, hi].
+/// The range of an axis and its ticks: first, first + step ... up to last, within [lo, hi].
 struct Axis {
-  double lo = 0, hi = 1, first = 0, step = 1;
+  double lo = 0, hi = 1, first = 0, step = 1, last = 1;
   int decimals = 0;
 };
 /// Widens [lo, hi] to whole ticks of 1, 2 or 5 times a power of ten, at most `intervals` of them.
@@ -37,6 +37,8 @@ struct Range {
   double lo = std::numeric_limits<double>::infinity();
   double hi = -std::numeric_limits<double>::infinity();
   void add(double value);  ///< NaN and infinities are left out
+  /// With a margin of 5 % at both ends, so that a curve does not lie on the frame.
+  Range padded() const { return {lo - 0.05 * (hi - lo), hi + 0.05 * (hi - lo)}; }
   bool empty() const { return lo > hi; }
 };
 
@@ -63,8 +65,5 @@ std::string plus_minus(const analysis::Estimate& estimate, double factor = 1);
 double text_width(std::string_view text);
 /// The text, cut with an ellipsis where it is wider than `width` [mm].
 std::string shortened(const std::string& text, double width);
-
-/// "a", "a and b", "a, b and c".
-std::string listed(std::span<const std::string> words);
 
 }  // namespace bedscope::report

@@ -36,7 +36,7 @@ std::vector<TypedPanel> typed_panels(Runs runs, Has has) {
   for (const std::string& name : species_names(runs)) types.push_back(name);
   std::vector<TypedPanel> panels;
   for (std::size_t t = 0; t < types.size(); ++t) {
-    const std::string words = types[t] == "all" ? "all types" : "type " + types[t];
+    const std::string words = species_title(types[t]);
     TypedPanel panel{types.size() == 1 ? "" : words, {}};
     for (std::size_t r = 0; r < runs.size(); ++r) {
       if (!has(runs[r], types[t])) continue;
@@ -152,9 +152,10 @@ Figure temperature_figure(Runs runs) {
     bands.insert(bands.end(), lines.begin(), lines.end());
     return bands;
   };
-  const Canvas canvas = stacked(
-      panels, exact_axis(time.lo, time.hi, 8), rounded_axis(kelvin.lo, kelvin.hi, 5),
-      time_label(runs), "temperature [K]", page_width, panels.size() == 1 ? 60 : 42, layers);
+  const Canvas canvas =
+      stacked(panels, exact_axis(time.lo, time.hi, 8),
+              rounded_axis(kelvin.padded().lo, kelvin.padded().hi, 5), time_label(runs),
+              "temperature [K]", page_width, panels.size() == 1 ? 60 : 42, layers);
   return drawn(
       canvas, name, title,
       fmt::format("Mean particle temperature (line) and its spread over the particles (band: "

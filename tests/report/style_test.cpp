@@ -83,7 +83,7 @@ TEST(CurveStyles, DifferInMoreThanColour) {
 TEST(Shortened, CutsBetweenCharactersAndNotWithin) {
   EXPECT_EQ(shortened("short", 100), "short");
   const std::string text = shortened("φφφφφφφφφφφφ", text_width("φφφφφ"));
-  EXPECT_EQ(text, "φφφφ…");
+  EXPECT_EQ(text, "φφφ…") << "the ellipsis needs room too";
 }
 
 TEST(Escaped, LeavesNothingThatHtmlReads) {
