@@ -155,7 +155,8 @@ std::string Canvas::layer(std::size_t index, std::string_view words) {
 
 double Canvas::legend_height(std::span<const LegendEntry> entries, double width) {
   const std::size_t columns = legend_columns(entries, width);
-  return line_height * static_cast<double>((entries.size() + columns - 1) / columns);
+  const std::size_t rows = (entries.size() + columns - 1) / columns;
+  return line_height * static_cast<double>(rows);
 }
 
 void Canvas::legend(std::span<const LegendEntry> entries, double left, double top, double width) {
@@ -165,8 +166,9 @@ void Canvas::legend(std::span<const LegendEntry> entries, double left, double to
     column_width = std::max(column_width, entry_width(entry));
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const LegendEntry& entry = entries[i];
+    const std::size_t row = i / columns;
     const double x = left + column_width * static_cast<double>(i % columns);
-    const double y = top - line_height * (static_cast<double>(i / columns) + 0.5);
+    const double y = top - line_height * (static_cast<double>(row) + 0.5);
     if (!entry.line.empty()) {
       command(fmt::format("set arrow from {} rto screen {:.5f}, screen 0 nohead {}", screen(x, y),
                           sample_width / width_, entry.line));
