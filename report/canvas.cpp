@@ -55,17 +55,14 @@ std::string constant(std::string_view text) {
 std::string literal(std::string_view text) {
   static constexpr std::array<std::string_view, 6> symbols{"x", "z", "t", "φ", "v_z", "G_z"};
   std::string result;
-  bool symbol_before = false;
   for (bool first = true; !text.empty(); first = false) {
     const std::size_t end = std::min(text.find(' '), text.size());
     const std::string_view word = text.substr(0, end);
     const bool symbol = std::find(symbols.begin(), symbols.end(), word) != symbols.end();
-    // No-break: some viewers drop plain spaces beside a change of font.
-    if (!first) result += symbol || symbol_before ? "\u00A0" : " ";
     const std::size_t letter = std::min(word.find('_'), word.size());
+    if (!first) result += ' ';
     result += symbol ? fmt::format("{{/:Italic {}}}{}", word.substr(0, letter), word.substr(letter))
                      : std::string(word);
-    symbol_before = symbol;
     text.remove_prefix(std::min(end + 1, text.size()));
   }
   return constant(result);

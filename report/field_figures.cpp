@@ -190,13 +190,14 @@ Figure fields_figure(Runs runs) {
 
   const bool all_fluxes =
       std::all_of(runs.begin(), runs.end(), [](const RunResult& run) { return run.density_known; });
-  return drawn(canvas, name, title,
-               fmt::format("Holdup, solids velocity ⟨φ v_z⟩/⟨φ⟩{}, positive (red) upwards. {}. {}. "
-                           "Colours saturate beyond the central 99 % of the cells; grey: no solids "
-                           "seen.{}{}",
-                           all_fluxes ? " and mass flux ρ⟨φ v_z⟩" : "", window_words(runs),
-                           mapping_words(runs), stretch_words(places.panel.stretch),
-                           all_fluxes ? "" : " No mass flux where no density is known."));
+  return drawn(
+      canvas, name, title,
+      fmt::format("Holdup, vertical solids velocity ⟨φ v⟩/⟨φ⟩{}, positive (red) upwards. {}. {}. "
+                  "Colours saturate beyond the central 99 % of the cells; grey: no solids "
+                  "seen.{}{}",
+                  all_fluxes ? " and mass flux ρ⟨φ v⟩" : "", window_words(runs),
+                  mapping_words(runs), stretch_words(places.panel.stretch),
+                  all_fluxes ? "" : " No mass flux where no density is known."));
 }
 
 }  // namespace bedscope::report
