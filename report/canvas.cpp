@@ -223,7 +223,7 @@ std::string Canvas::script(const std::string& name, const std::string& title) co
       "'white'\n"
       "  }}\n"
       "  set output '{9}.'.form\n"
-      "  unset key; unset colorbox; set border lw 0.7; set errorbars 0.5\n"
+      "  unset key; unset colorbox; set border lw 0.7\n"
       "  set multiplot\n",
       width_, height_, width, height, width * png_scale, height * png_scale, 0.75 * png_scale,
       png_scale, 1.3 * png_scale, name);
