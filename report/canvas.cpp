@@ -55,17 +55,14 @@ std::string constant(std::string_view text) {
 std::string literal(std::string_view text) {
   static constexpr std::array<std::string_view, 6> symbols{"x", "z", "t", "φ", "v_z", "G_z"};
   std::string result;
-  bool symbol_before = false;
   for (bool first = true; !text.empty(); first = false) {
     const std::size_t end = std::min(text.find(' '), text.size());
     const std::string_view word = text.substr(0, end);
     const bool symbol = std::find(symbols.begin(), symbols.end(), word) != symbols.end();
-    // No-break: some viewers drop plain spaces beside a change of font.
-    if (!first) result += symbol || symbol_before ? "\u00A0" : " ";
     const std::size_t letter = std::min(word.find('_'), word.size());
+    if (!first) result += ' ';
     result += symbol ? fmt::format("{{/:Italic {}}}{}", word.substr(0, letter), word.substr(letter))
                      : std::string(word);
-    symbol_before = symbol;
     text.remove_prefix(std::min(end + 1, text.size()));
   }
   return constant(result);
@@ -155,7 +152,8 @@ std::string Canvas::layer(std::size_t index, std::string_view words) {
 
 double Canvas::legend_height(std::span<const LegendEntry> entries, double width) {
   const std::size_t columns = legend_columns(entries, width);
-  return line_height * static_cast<double>((entries.size() + columns - 1) / columns);
+  const std::size_t rows = (entries.size() + columns - 1) / columns;
+  return line_height * static_cast<double>(rows);
 }
 
 void Canvas::legend(std::span<const LegendEntry> entries, double left, double top, double width) {
@@ -165,8 +163,9 @@ void Canvas::legend(std::span<const LegendEntry> entries, double left, double to
     column_width = std::max(column_width, entry_width(entry));
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const LegendEntry& entry = entries[i];
+    const std::size_t row = i / columns;
     const double x = left + column_width * static_cast<double>(i % columns);
-    const double y = top - line_height * (static_cast<double>(i / columns) + 0.5);
+    const double y = top - line_height * (static_cast<double>(row) + 0.5);
     if (!entry.line.empty()) {
       command(fmt::format("set arrow from {} rto screen {:.5f}, screen 0 nohead {}", screen(x, y),
                           sample_width / width_, entry.line));
@@ -224,7 +223,7 @@ std::string Canvas::script(const std::string& name, const std::string& title) co
       "'white'\n"
       "  }}\n"
       "  set output '{9}.'.form\n"
-      "  unset key; unset colorbox; set border lw 0.7; set errorbars 0.5\n"
+      "  unset key; unset colorbox; set border lw 0.7\n"
       "  set multiplot\n",
       width_, height_, width, height, width * png_scale, height * png_scale, 0.75 * png_scale,
       png_scale, 1.3 * png_scale, name);

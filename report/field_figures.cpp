@@ -66,8 +66,7 @@ std::vector<Quantity> quantities(Runs runs) {
   return found;
 }
 
-constexpr double left = 15, bottom = 11, names_room = 5.5, bar_room = 13, gap = 3, group_gap = 8,
-                 shortest_bar = 36;
+constexpr double left = 15, bottom = 11, bar_room = 13, gap = 3, group_gap = 8, shortest_bar = 36;
 
 /// Where the panels are. Tall domains: quantities side by side, each with all runs; others: a row
 /// of runs for each quantity.
@@ -76,6 +75,7 @@ struct Layout {
   bool rows = false;
   double group_width = 0, group_height = 0;
   double slot = 0;               ///< for a group and its colour bar [mm]
+  double names = 0;              ///< room for the runs' names above the panels [mm]
   double width = 0, height = 0;  ///< of all
 
   double x(std::size_t quantity, std::size_t run) const {
@@ -89,7 +89,8 @@ struct Layout {
 
 Layout layout(std::size_t quantities, std::size_t runs, double lx, double lz) {
   const auto q = static_cast<double>(quantities), r = static_cast<double>(runs);
-  const double above = bar_room + names_room;
+  const double names = runs > 1 ? 5.5 : 2;
+  const double above = bar_room + names;
   // Very many runs make the figure wider than the page rather than their panels thinner than 10 mm.
   const double room = std::max(page_width - left - 2, r * (10 + gap));
   const PanelGrid beside = panel_grid(quantities * runs, 1, lx, lz, room - (q - 1) * group_gap,
@@ -97,6 +98,7 @@ Layout layout(std::size_t quantities, std::size_t runs, double lx, double lz) {
   const PanelGrid row = panel_grid(runs, 1, lx, lz, room,
                                    std::min(90.0, (page_height - 6) / q) - bottom - above, gap, 0);
   Layout found;
+  found.names = names;
   found.rows = beside.width < 11 || beside.width * beside.height < row.width * row.height;
   found.panel = found.rows ? row : beside;
   found.group_width = r * (found.panel.width + gap) - gap;
@@ -124,7 +126,7 @@ void draw_quantity(Canvas& canvas, Runs runs, std::span<const Quantity> all, std
   const auto [lo, hi] = std::pair(quantity.range.lo, quantity.range.hi);
   canvas.command(quantity.holdup ? viridis() : diverging(lo, hi));
   canvas.command(fmt::format("set cbrange [{:.10g}:{:.10g}]", lo, hi));
-  canvas.colour_bar(middle - bar / 2, top + names_room, bar, quantity.range,
+  canvas.colour_bar(middle - bar / 2, top + places.names, bar, quantity.range,
                     literal(quantity.title));
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const RunResult& run = runs[r];
@@ -188,13 +190,14 @@ Figure fields_figure(Runs runs) {
 
   const bool all_fluxes =
       std::all_of(runs.begin(), runs.end(), [](const RunResult& run) { return run.density_known; });
-  return drawn(canvas, name, title,
-               fmt::format("Holdup, solids velocity ⟨φ v_z⟩/⟨φ⟩{}, positive (red) upwards. {}. {}. "
-                           "Colours saturate beyond the central 99 % of the cells; grey: no solids "
-                           "seen.{}{}",
-                           all_fluxes ? " and mass flux ρ⟨φ v_z⟩" : "", window_words(runs),
-                           mapping_words(runs), stretch_words(places.panel.stretch),
-                           all_fluxes ? "" : " No mass flux where no density is known."));
+  return drawn(
+      canvas, name, title,
+      fmt::format("Holdup, vertical solids velocity ⟨φ v⟩/⟨φ⟩{}, positive (red) upwards. {}. {}. "
+                  "Colours saturate beyond the central 99 % of the cells; grey: no solids "
+                  "seen.{}{}",
+                  all_fluxes ? " and mass flux ρ⟨φ v⟩" : "", window_words(runs),
+                  mapping_words(runs), stretch_words(places.panel.stretch),
+                  all_fluxes ? "" : " No mass flux where no density is known."));
 }
 
 }  // namespace bedscope::report

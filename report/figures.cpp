@@ -58,17 +58,20 @@ class WorkFolder {
   fs::path path_;
 };
 
-/// Cells stay cells: viewers would smooth the maps that gnuplot embeds, and gnuplot has no word for
-/// it.
-void sharpen_images(const fs::path& svg) {
+void replace_all(std::string& text, std::string_view from, std::string_view to) {
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at)) {
+    text.replace(at, from.size(), to);
+    at += to.size();
+  }
+}
+
+/// What gnuplot has no words for. Cells stay cells: viewers would smooth the maps that it embeds.
+/// And the spaces around symbols stay: some viewers drop them where the font changes.
+void finish_svg(const fs::path& svg) {
   std::ifstream file(svg, std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(file), {}};
-  constexpr std::string_view tag = "<image ", style = "style='image-rendering:pixelated' ";
-  std::size_t found = text.find(tag);
-  if (found == std::string::npos) return;
-  for (; found != std::string::npos; found = text.find(tag, found + tag.size() + style.size())) {
-    text.insert(found + tag.size(), style);
-  }
+  replace_all(text, "<image ", "<image style='image-rendering:pixelated' ");
+  replace_all(text, "<text>", "<text xml:space='preserve'>");
   analysis::write_file(svg, text);
 }
 
@@ -120,7 +123,7 @@ void draw_figures(std::span<const Figure> figures, const fs::path& folder, bool 
 
   std::set<std::string> kept;
   for (const Figure* figure : drawn) {
-    sharpen_images(work.path() / (figure->name + ".svg"));
+    finish_svg(work.path() / (figure->name + ".svg"));
     for (const std::string ending : {".gp", ".dat", ".svg", ".png"}) {
       if (ending == ".png" && !png) continue;
       const std::string name = figure->name + ending;

@@ -156,10 +156,10 @@ Figure lateral_figure(Runs runs, std::span<const double> heights, std::span<cons
                                 [](const Row& row) { return row.values == &Profile::mass_flux_z; });
   return drawn(
       canvas, name, title,
-      fmt::format("Holdup φ, solids velocity v_z = ⟨φ v_z⟩/⟨φ⟩{} against lateral position, "
+      fmt::format("Holdup φ, vertical solids velocity ⟨φ v⟩/⟨φ⟩{} against lateral position, "
                   "in bands of {} mm height around z; bars (bands where cells are narrow): "
                   "{}. {}. {}.{}",
-                  flux ? " and mass flux G_z = ρ⟨φ v_z⟩" : "", number(1e3 * runs.front().band),
+                  flux ? " and mass flux ρ⟨φ v⟩" : "", number(1e3 * runs.front().band),
                   interval_words, window_words(runs), mapping_words(runs),
                   flux ? "" : " No mass flux: no density is known."));
 }

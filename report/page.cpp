@@ -42,7 +42,7 @@ constexpr std::string_view style_sheet = R"(
   .problems p { margin: 0; font-weight: 600; }
   .problems ul { margin: .2rem 0 0; padding-left: 1.2rem; overflow-wrap: anywhere; }
   figure { margin: 0; }
-  figure img { display: block; max-width: 100%; height: auto; }
+  figure img { display: block; max-width: 100%; height: auto; object-fit: contain; object-position: left top; }
   figcaption { font-size: .88rem; color: #333; margin-top: .5rem; max-width: 46rem; overflow-wrap: anywhere; }
   .files { font-size: .8rem; color: #555; white-space: nowrap; }
   @media print {
@@ -50,7 +50,7 @@ constexpr std::string_view style_sheet = R"(
     body { margin: 0; padding: 0; max-width: none; font-size: 10.5pt; }
     h2 { break-after: avoid; margin-top: 1.2rem; }
     section, tr { break-inside: avoid; }
-    figure img { max-height: 225mm; width: auto; }
+    figure img { max-height: 225mm; }
     .files { display: none; }
     a { color: inherit; text-decoration: none; }
   }

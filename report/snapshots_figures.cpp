@@ -18,12 +18,14 @@ using analysis::RunResult;
 namespace {
 
 constexpr double arrow_length = 3.4, arrow_gap = 1;  // [mm]
+constexpr std::size_t most_arrows = 40;              // in a frame: more would hide it
 /// Lifts the pen. Not a blank line: in a file with blank lines inside blocks gnuplot miscounts the
 /// matrices that follow.
 const std::string gap_row = "nan nan\n";
 
 /// What is drawn over one frame: outlines, ellipses and arrows of both directions.
 struct Overlay {
+  std::size_t clusters = 0;
   std::string contours;
   std::string ellipses[2], arrows[2];  ///< upward, downward
 };
@@ -48,6 +50,7 @@ Overlay overlay(const RunResult& run, const Frame& frame, double x_factor, doubl
   Overlay found;
   for (const Cluster& cluster : run.clusters) {
     if (cluster.snapshot != frame.snapshot) continue;
+    ++found.clusters;
     for (const auto& contour : cluster.contours) {
       for (const Point& point : contour) {
         found.contours += data_row({x_factor * point.x, z_factor * point.z});
@@ -90,7 +93,7 @@ void overlay_layers(Canvas& canvas, const Overlay& overlay, const std::string& o
     const std::string colour = way == 0 ? "#009E73" : "#D55E00";
     add("ellipses of " + name + " clusters, ", overlay.ellipses[way],
         fmt::format("using 1:2 with lines {}", line));
-    if (overlay.arrows[way].empty()) continue;
+    if (overlay.arrows[way].empty() || overlay.clusters > most_arrows) continue;
     const std::size_t block =
         canvas.block("arrows of " + name + " clusters, " + of, overlay.arrows[way]);
     const double head = 1.3 / canvas.width();
@@ -183,11 +186,13 @@ Figure snapshots_figure(const RunResult& run, const std::string& name, const std
   }
   return drawn(
       canvas, name, title,
-      fmt::format("{}: holdup in {} snapshots of the averaging window, with the outlines of "
-                  "clusters and their ellipses of equal second moments; green, solid, arrow up: "
-                  "moving upwards; red, dashed, arrow down: moving downwards. {}. {}.{}",
-                  run.label, count, threshold_words({&run, 1}), mapping_words({&run, 1}),
-                  stretch_words(grid.stretch)));
+      fmt::format(
+          "{}: holdup in {} snapshots of the averaging window, with the outlines of "
+          "clusters and their ellipses of equal second moments; green, solid, arrow up: "
+          "moving upwards; red, dashed, arrow down: moving downwards (no arrows where there are "
+          "more than {} clusters). {}. {}.{}",
+          run.label, count, most_arrows, threshold_words({&run, 1}), mapping_words({&run, 1}),
+          stretch_words(grid.stretch)));
 }
 
 }  // namespace

@@ -308,6 +308,9 @@ TEST_F(Report, DrawsSeveralHundredClustersASnapshotAndTenRuns) {
   }
   write(runs);
   EXPECT_TRUE(fs::exists(figure("snapshots_10.svg")));
+  EXPECT_NE(content(figure("snapshots_2.dat")).find("arrows of upward"), std::string::npos);
+  EXPECT_EQ(content(figure("snapshots_1.dat")).find("arrows of"), std::string::npos)
+      << "three hundred arrows would hide the clusters";
   EXPECT_LT(fs::file_size(folder() / "index.html"), 5'000'000U);
 }
 
