@@ -77,6 +77,13 @@ void for_each_product(const RunSetup& setup, const readers::Series& series, std:
   if (failure) std::rethrow_exception(failure);
 }
 
+bool same_steps(const readers::Series& a, const readers::Series& b) {
+  if (a.size() != b.size()) return false;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (a.step(i) != b.step(i)) return false;
+  return true;
+}
+
 /// Equal spacing (to rounding): then every snapshot weighs the same wherever the window begins.
 bool evenly_spaced(const std::vector<double>& times) {
   if (times.size() < 3) return true;
@@ -91,7 +98,7 @@ IndexRange window_of(const RunSetup& setup) {
   const auto [from, to] = *setup.settings.average;
   const auto window = select_window(setup.times, from, to, setup.half_step);
   if (window.count == 0)
-    throw InputError(
+    throw EmptyWindow(
         "run \"{}\": average: no snapshot between {} and {} s; the dumps run from {} to {} s",
         setup.settings.label, from, to, setup.times.front(), setup.times.back());
   return window;
@@ -135,14 +142,21 @@ struct LiveAnalysis::State {
     sums.emplace(*setup, is_auto(), options.pictures);
   }
 
+  /// Whether the snapshots that were added are still the first ones of the series; one that came
+  /// late, in the middle, means to begin anew.
+  bool continues(const readers::Series& found) const {
+    if (!sums || found.size() <= sums->snapshots()) return false;
+    for (std::size_t i = 0; i < sums->snapshots(); ++i)
+      if (found.step(i) != series->step(i)) return false;
+    return true;
+  }
+
   bool update() {
     const auto started = std::chrono::steady_clock::now();
     auto found = readers::Series::open(settings.particles, {settings.repeated});
     const bool first_time = !series.has_value();
-    if (!first_time && found.size() == series->size() &&
-        found.step(found.size() - 1) == series->step(series->size() - 1))
-      return false;
-    const bool goes_on = !first_time && found.size() > sums->snapshots();
+    if (!first_time && same_steps(found, *series)) return false;
+    const bool goes_on = !first_time && continues(found);
     series.emplace(std::move(found));
     if (goes_on)
       update_times(*setup, *series);

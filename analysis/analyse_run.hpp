@@ -7,8 +7,15 @@
 
 #include "analysis/result.hpp"
 #include "analysis/settings.hpp"
+#include "readers/error.hpp"
 
 namespace bedscope::analysis {
+
+/// No snapshot lies in the averaging window: for a running simulation, not yet.
+class EmptyWindow : public InputError {
+ public:
+  using InputError::InputError;
+};
 
 struct AnalysisOptions {
   int threads = 0;       ///< 0: all cores; the result does not depend on it, to the bit

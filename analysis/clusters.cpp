@@ -19,7 +19,7 @@ namespace {
 struct Region {
   int first_i = 0, first_k = 0;
   std::int64_t cells = 0, i = 0, k = 0, ii = 0, ik = 0, kk = 0;
-  double holdup = 0, holdup_max = 0, holdup_vx = 0, holdup_vz = 0;
+  double holdup = 0, holdup_max = 0, mass = 0, mass_vx = 0, mass_vz = 0;
 
   void add(int column, int row) {
     if (cells++ == 0) {
@@ -88,8 +88,8 @@ Cluster measure(const Grid& grid, const Region& region) {
   cluster.area = static_cast<double>(region.cells) * (width_x * width_z);
   cluster.holdup = region.holdup / static_cast<double>(region.cells);
   cluster.holdup_max = region.holdup_max;
-  cluster.velocity_x = region.holdup_vx / region.holdup;
-  cluster.velocity_z = region.holdup_vz / region.holdup;
+  cluster.velocity_x = region.mass_vx / region.mass;
+  cluster.velocity_z = region.mass_vz / region.mass;
   cluster.track_velocity_x = cluster.track_velocity_z = nan;
   set_ellipse(region, width_x, width_z, cluster);
   return cluster;
@@ -170,11 +170,12 @@ void add_contours(const Grid& grid, const std::vector<std::size_t>& dense, Clust
 }  // namespace
 
 ClusterImage find_clusters(const Grid& grid, std::span<const double> holdup,
-                           std::span<const double> holdup_vx, std::span<const double> holdup_vz,
-                           const ClusterThresholds& thresholds) {
+                           std::span<const double> mass, std::span<const double> mass_vx,
+                           std::span<const double> mass_vz, const ClusterThresholds& thresholds) {
   const auto columns = static_cast<std::size_t>(grid.cells[lateral]);
   assert(holdup.size() == columns * static_cast<std::size_t>(grid.cells[up]));
-  assert(holdup_vx.size() == holdup.size() && holdup_vz.size() == holdup.size());
+  assert(mass.size() == holdup.size() && mass_vx.size() == holdup.size() &&
+         mass_vz.size() == holdup.size());
   ClusterImage image;
   image.labels.assign(holdup.size(), 0);
   const double peak = std::max(thresholds.core, thresholds.threshold);
@@ -191,8 +192,9 @@ ClusterImage find_clusters(const Grid& grid, std::span<const double> holdup,
     region.add(static_cast<int>(cell % columns), static_cast<int>(cell / columns));
     region.holdup += holdup[cell];
     region.holdup_max = std::max(region.holdup_max, holdup[cell]);
-    region.holdup_vx += holdup_vx[cell];
-    region.holdup_vz += holdup_vz[cell];
+    region.mass += mass[cell];
+    region.mass_vx += mass_vx[cell];
+    region.mass_vz += mass_vz[cell];
   }
 
   const auto kept = select_clusters(grid, regions, thresholds);

@@ -18,7 +18,7 @@ struct ClusterImage {
 /// The clusters of one snapshot: 8-connected regions of holdup > threshold with an area of at least
 /// min_area (an exact multiple of the cell counts as reached: 1e-9 relative) and a cell > core.
 ///
-///   velocity = sum(phi v) / sum(phi);  major, minor = 4 sqrt(lambda)
+///   velocity = sum(rho phi v) / sum(rho phi);  major, minor = 4 sqrt(lambda)
 ///
 /// lambda: eigenvalues of the region's central second moments, each cell's own width^2/12 included;
 /// a region of equal moments (square, disc) has angle 0. Numbered upwards by centre z, then x, then
@@ -27,12 +27,13 @@ struct ClusterImage {
 /// it twice. Areas of outline minus holes add up to the cluster's.
 /// snapshot and time are the caller's to set, track, track velocity and parents the Tracker's.
 ///
+/// `mass` is rho phi in any unit; where all particles have one density the holdup itself will do.
 /// Regions are not joined across a periodic seam. Bubbles: give the voidage in place of holdup.
 /// Source of the three thresholds: Carlos Varas et al. (2016).
 /// Shape: cells[lateral] x cells[up], lateral fastest, whatever cells[depth]. Units: [-] and [m/s].
 /// Thread-safe; turns OpenCV's own threads off for the process.
 ClusterImage find_clusters(const Grid& grid, std::span<const double> holdup,
-                           std::span<const double> holdup_vx, std::span<const double> holdup_vz,
-                           const ClusterThresholds& thresholds);
+                           std::span<const double> mass, std::span<const double> mass_vx,
+                           std::span<const double> mass_vz, const ClusterThresholds& thresholds);
 
 }  // namespace bedscope::analysis

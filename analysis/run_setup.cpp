@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "readers/error.hpp"
 #include "readers/liggghts_log.hpp"
@@ -166,60 +165,40 @@ void set_cells(const FirstLook& first, RunSetup& setup) {
                      cells, most_cells);
 }
 
-/// Density by type from the column of the first snapshot; the study and the log know it as one
-/// value a type, and so do all dumps that we have seen.
-ByType density_of_columns(const FirstLook& first, const RunSetup& setup,
-                          std::vector<std::string>& problems) {
-  ByType found;
-  const bool by_mass = first.column(FirstLook::density).empty();
-  const auto& values = first.column(by_mass ? FirstLook::mass : FirstLook::density);
-  if (values.empty()) return found;
-  const auto& radius = first.column(FirstLook::radius);
-  const auto& type = first.column(FirstLook::type);
-  struct Range {
-    double sum = 0, count = 0, min = INFINITY, max = 0;
-  };
-  std::map<int, Range> ranges;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const int of = type.empty() ? 0 : static_cast<int>(type[i]);
-    const double r = setup.radius_in_dumps ? radius[i] : setup.settings.radius.at(of);
-    const double value = by_mass ? values[i] / (4. / 3. * std::numbers::pi * r * r * r) : values[i];
-    if (!(value > 0) || !std::isfinite(value)) continue;
-    auto& range = ranges[of];
-    range.sum += value;
-    range.count += 1;
-    range.min = std::min(range.min, value);
-    range.max = std::max(range.max, value);
-  }
-  for (const auto& [of, range] : ranges) {
-    found.of_type[of] = range.sum / range.count;
-    if (range.max > range.min * (1 + 1e-4))
-      problems.push_back(fmt::format(
-          "density differs among particles of type {} ({:.6g} to {:.6g} kg/m3): their mean is used",
-          of, range.min, range.max));
-  }
-  if (ranges.size() == 1 && type.empty()) found.all = found.of_type.begin()->second;
-  return found;
-}
-
 void set_density(const readers::Series& series, const readers::LiggghtsLog& log,
                  const FirstLook& first, RunSetup& setup) {
-  setup.density = setup.settings.density;
-  if (setup.density.given()) return;
-  // In dumps of multi-sphere bodies each row carries the mass of the whole body.
+  using From = RunSetup::Density;
   const auto& names = series.columns();
+  // In dumps of multi-sphere bodies each row carries the mass of the whole body.
   const bool bodies = std::any_of(names.begin(), names.end(), [](const std::string& name) {
     return name == "id_multisphere" || name == "mol";
   });
-  if (!bodies || !first.column(FirstLook::density).empty())
-    setup.density = density_of_columns(first, setup, setup.problems);
-  if (!setup.density.given() && !log.density.empty()) {
+  setup.density = setup.settings.density;
+  if (setup.density.given()) {
+    setup.density_from = From::by_type;
+  } else if (!first.column(FirstLook::density).empty()) {
+    setup.density_from = From::density_column;
+  } else if (!first.column(FirstLook::mass).empty() && !bodies) {
+    setup.density_from = From::mass_column;
+  } else if (!log.density.empty()) {
+    setup.density_from = From::by_type;
     setup.density.of_type = log.density;
     setup.problems.push_back(fmt::format("density taken from {}", log.path));
-  }
-  if (!setup.density.given())
-    setup.problems.push_back(
+  } else {
+    setup.problems.emplace_back(
         "no density (key density, a column, or log.liggghts): masses and mass fluxes are nan");
+  }
+}
+
+readers::ColumnRequest density_column(const RunSetup& setup) {
+  switch (setup.density_from) {
+    case RunSetup::Density::density_column:
+      return {"density"};
+    case RunSetup::Density::mass_column:
+      return {"mass"};
+    default:
+      return {"no density needed", false};
+  }
 }
 
 void set_heights(RunSetup& setup) {
@@ -315,9 +294,11 @@ RunSetup set_up(const RunSettings& settings, const readers::Series& series) {
                    {name("v", lateral), setup.has_velocity},
                    {name("v", up), setup.has_velocity},
                    {setup.radius_in_dumps ? "radius" : "no radius needed", setup.radius_in_dumps},
-                   {"type", false},
+                   {"type", !first.column(FirstLook::type).empty()},
                    {"id", false},
-                   {setup.has_temperature ? settings.temperature_column : "no temperature", false}};
+                   {setup.has_temperature ? settings.temperature_column : "no temperature",
+                    setup.has_temperature},
+                   density_column(setup)};
   for (const auto& rule : settings.species) setup.request.push_back({rule.column});
   setup.request_without_id = setup.request;
   setup.request_without_id[column_id] = {"no id needed", false};

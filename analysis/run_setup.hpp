@@ -23,6 +23,7 @@ enum Column : std::size_t {
   column_type,
   column_id,
   column_temperature,
+  column_density,  ///< or the particle's mass: see RunSetup::density_from
   column_first_rule
 };
 
@@ -42,7 +43,10 @@ struct RunSetup {
   std::optional<double> time_step;  ///< [s], from the study or the log
   double half_step = 0;             ///< [s] by which the window is widened
 
-  ByType density;  ///< [kg/m3], from the study, a column, or the log
+  /// Where densities come from: `density` holds them, or a column does, or nobody knows.
+  enum class Density { by_type, density_column, mass_column, unknown };
+  Density density_from = Density::unknown;
+  ByType density;  ///< [kg/m3], of the study or the log
   std::vector<double> heights;
   double band = 0;
   std::vector<std::vector<double>>

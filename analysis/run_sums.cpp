@@ -57,9 +57,10 @@ void RunSums::add(SnapshotProduct& product, double weight) {
     const auto& slot = product.slots[s];
     const auto number = slot_number(slot.key);
     if (sample.slots.size() <= number) sample.slots.resize(number + 1);
-    sample.slots[number] = {slot.particles,        slot.volume,      slot.moment,
-                            slot.with_temperature, slot.shifted_sum, slot.shifted_squares,
-                            slot.coldest,          slot.hottest};
+    sample.slots[number] = {slot.particles,   slot.volume,          slot.moment,
+                            slot.mass,        slot.mass_moment,     slot.with_temperature,
+                            slot.shifted_sum, slot.shifted_squares, slot.coldest,
+                            slot.hottest};
     if (weight <= 0) continue;
     fields_.at(i).add(weight, number, slot.fields);
     profiles_.at(i).add(weight, number, slot.profiles);
@@ -79,12 +80,32 @@ void RunSums::add(SnapshotProduct& product, double weight) {
                          area / (grid.length(lateral) * grid.length(up))});
   if (weight > 0) {
     tracker_.link(product.image, setup_->time_known ? time : undefined);
+    if (!setup_->has_velocity)
+      for (auto& cluster : product.image.clusters)
+        cluster.velocity_x = cluster.velocity_z = undefined;
     std::move(product.image.clusters.begin(), product.image.clusters.end(),
               std::back_inserter(clusters_));
   }
   flaws_.merge(product.flaws);
   without_temperature_ += product.without_temperature;
   bytes_read_ += product.bytes_read;
+}
+
+/// Of each slot [kg/m3]: mass over volume of all its particles in all snapshots.
+std::vector<double> RunSums::densities() const {
+  std::vector<double> mass(slots_.size(), 0), volume(slots_.size(), 0);
+  for (const auto& sample : samples_)
+    for (std::size_t s = 0; s < sample.slots.size(); ++s) {
+      if (!(sample.slots[s].volume > 0)) continue;
+      mass[s] += sample.slots[s].mass;
+      volume[s] += sample.slots[s].volume;
+    }
+  std::vector<double> density(slots_.size());
+  for (std::size_t s = 0; s < slots_.size(); ++s) {
+    const bool by_type = setup_->density_from == RunSetup::Density::by_type;
+    density[s] = by_type ? setup_->density.at(slots_[s].type) : mass[s] / volume[s];
+  }
+  return density;
 }
 
 Window RunSums::choose_window() const {
@@ -160,13 +181,12 @@ void RunSums::inventory_of(const Species& species, RunResult& result) const {
     for (const std::size_t s : species.slots) {
       if (s >= sample.slots.size()) continue;
       const auto& slot = sample.slots[s];
-      const double density = setup_->density.at(slots_[s].type);
       row.particles += slot.particles;
       volume += slot.volume;
       moment += slot.moment;
       if (slot.volume > 0) {
-        mass += density * slot.volume;
-        mass_moment += density * slot.moment;
+        mass += slot.mass;
+        mass_moment += slot.mass_moment;
       }
       if (slot.with_temperature == 0) continue;
       with_temperature += slot.with_temperature;
@@ -175,7 +195,7 @@ void RunSums::inventory_of(const Species& species, RunResult& result) const {
       heat.min = std::min(heat.min, slot.coldest);
       heat.max = std::max(heat.max, slot.hottest);
     }
-    row.solids_mass = setup_->density.given() ? mass : undefined;
+    row.solids_mass = density_known() ? mass : undefined;
     row.holdup = volume / grid.volume();
     // The centre of mass; of volume where no density is known (the same for one density).
     const bool by_mass = mass > 0 && std::isfinite(mass);
@@ -213,6 +233,7 @@ void RunSums::profiles_of(const Species& species, const Window& window, SpeciesR
     leaves.push_back(&sum);
     weights.push_back(sum.weight);
   }
+  const auto density = densities();
   const std::size_t n = leaves.size();
   std::vector<double> holdup(n), moved(n), flux(n);
   int few = 0, disagree = 0, points = 0;
@@ -225,7 +246,7 @@ void RunSums::profiles_of(const Species& species, const Window& window, SpeciesR
         const double per_weight = 1 / weights[leaf];
         holdup[leaf] += q[0] * per_weight;
         moved[leaf] += q[1] * per_weight;
-        if (q[0] != 0) flux[leaf] += setup_->density.at(slots_[s].type) * q[1] * per_weight;
+        if (q[0] != 0) flux[leaf] += density[s] * q[1] * per_weight;
       }
     }
     const auto mean = estimate_mean(holdup, weights);
@@ -237,7 +258,7 @@ void RunSums::profiles_of(const Species& species, const Window& window, SpeciesR
     profile.velocity_z.push_back(moves ? estimate_ratio(moved, holdup, weights) : Estimate{});
     const bool finite =
         std::all_of(flux.begin(), flux.end(), [](double g) { return std::isfinite(g); });
-    profile.mass_flux_z.push_back(moves && finite && setup_->density.given()
+    profile.mass_flux_z.push_back(moves && finite && density_known()
                                       ? static_cast<Estimate>(estimate_mean(flux, weights))
                                       : Estimate{});
   };
@@ -273,9 +294,10 @@ void RunSums::fields_of(const Species& species, const WeightedSum& sum,
   std::vector<double> moved_x(cells, 0), moved_z(cells, 0);
   fields.mass_flux_x.assign(cells, 0);
   fields.mass_flux_z.assign(cells, 0);
+  const auto slot_densities = densities();
   for (const std::size_t s : species.slots) {
     if (s >= sum.slots.size() || sum.slots[s].empty()) continue;
-    const double density = setup_->density.at(slots_[s].type);
+    const double density = slot_densities[s];
     const double* q = sum.slots[s].data();
     for (std::size_t c = 0; c < cells; ++c, q += 3) {
       if (q[0] == 0) continue;
@@ -293,7 +315,7 @@ void RunSums::fields_of(const Species& species, const WeightedSum& sum,
     fields.velocity_x[c] = moved_x[c] / fields.holdup[c];
     fields.velocity_z[c] = moved_z[c] / fields.holdup[c];
   }
-  if (!setup_->density.given() || !setup_->has_velocity) {
+  if (!density_known() || !setup_->has_velocity) {
     fields.mass_flux_x.assign(cells, undefined);
     fields.mass_flux_z.assign(cells, undefined);
   }
@@ -353,7 +375,7 @@ void RunSums::means_of(const Window& window, RunResult& result) const {
     double kilograms = 0, moment = 0;
     for (std::size_t s = 0; s < sample.slots.size(); ++s) {
       if (slots_[s].rule >= 0 || sample.slots[s].volume <= 0) continue;
-      kilograms += setup_->density.at(slots_[s].type) * sample.slots[s].volume;
+      kilograms += sample.slots[s].mass;
       moment += sample.slots[s].moment;
     }
     mass.push_back(kilograms);
@@ -366,7 +388,7 @@ void RunSums::means_of(const Window& window, RunResult& result) const {
   result.independent_samples = mean.independent_samples;
   result.mean_occurrence = estimate_mean(clusters, weights);
   result.bed_voidage = estimate_mean(bed, weights);
-  if (setup_->density.given() &&
+  if (density_known() &&
       std::all_of(mass.begin(), mass.end(), [](double m) { return std::isfinite(m); }))
     result.inventory_mass = estimate_mean(mass, weights);
   result.outside_fraction = volume > 0 ? std::max(0., outside / volume) : 0;
@@ -390,7 +412,7 @@ RunResult RunSums::finish(const readers::Series& series, const Window& window) c
   result.mapping = setup.settings.mapping;
   result.domain_assumed = setup.domain_assumed;
   result.time_known = setup.time_known;
-  result.density_known = setup.density.given();
+  result.density_known = density_known();
   result.heights = setup.heights;
   result.band = setup.band;
   result.thresholds = setup.settings.clusters;

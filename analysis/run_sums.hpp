@@ -35,7 +35,7 @@ class RunSums {
  private:
   struct SlotSample {
     std::int64_t particles = 0;
-    double volume = 0, moment = 0;
+    double volume = 0, moment = 0, mass = 0, mass_moment = 0;
     std::int64_t with_temperature = 0;
     double shifted_sum = 0, shifted_squares = 0, coldest = 0, hottest = 0;
   };
@@ -47,6 +47,8 @@ class RunSums {
   struct Species;
 
   std::size_t slot_number(SlotKey key);
+  std::vector<double> densities() const;
+  bool density_known() const { return setup_->density_from != RunSetup::Density::unknown; }
   std::vector<Species> species() const;
   void inventory_of(const Species& species, RunResult& result) const;
   void profiles_of(const Species& species, const Window& window, SpeciesResult& result,

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "readers/error.hpp"
+
 namespace bedscope::analysis {
 namespace {
 
@@ -24,13 +26,15 @@ class Mapper {
     const double* const vz = data(column_v_up);
     const double* const radius = data(column_radius);
     const double floor = setup_.grid.min[up];
+    const double* const density = data(column_density);
+    const bool by_mass = setup_.density_from == RunSetup::Density::mass_column;
     const std::size_t rules = setup_.settings.species.size();
     // Sums of the loop live in registers: stores into the fields could alias members.
     Sums sums;
     double total = 0, inside = 0, farthest = 0;
     for (std::size_t i = 0; i < rows_; ++i) {
       const int of = type_of(i);
-      const double r = radius != nullptr ? radius[i] : setup_.settings.radius.at(of);
+      const double r = radius != nullptr ? radius[i] : radius_of(of);
       const double u = vx != nullptr ? vx[i] : 0;
       const double w = vz != nullptr ? vz[i] : 0;
       if (!std::isfinite(x[i] + y[i] + z[i] + u + w + r)) {  // one test for nan and inf in any
@@ -49,6 +53,11 @@ class Mapper {
       const double volume = sphere_volume(r);
       sums.volume += volume;
       sums.moment += volume * (z[i] - floor);
+      if (density != nullptr) {
+        const double mass = by_mass ? density[i] : density[i] * volume;
+        sums.mass += mass;
+        sums.mass_moment += mass * (z[i] - floor);
+      }
       total += volume;
       const double part = share(kernel, {x[i], y[i], z[i]}, r, u, w, sums.fields);
       inside += part;
@@ -60,10 +69,22 @@ class Mapper {
         ++chosen.particles;
         chosen.volume += volume;
         chosen.moment += volume * (z[i] - floor);
+        if (density != nullptr) {
+          const double mass = by_mass ? density[i] : density[i] * volume;
+          chosen.mass += mass;
+          chosen.mass_moment += mass * (z[i] - floor);
+        }
         share(kernel, {x[i], y[i], z[i]}, r, u, w, chosen.fields.data());
       }
     }
     flush(sums);
+    if (density == nullptr)  // one density a type
+      for (std::size_t s = 0; s < out_.used; ++s) {
+        auto& slot = out_.slots[s];
+        const double of_type = density_of(slot.key.type);
+        slot.mass = of_type * slot.volume;
+        slot.mass_moment = of_type * slot.moment;
+      }
     out_.volume += total;
     out_.volume_inside += inside;
     out_.flaws.farthest = std::max(out_.flaws.farthest, farthest);
@@ -95,7 +116,7 @@ class Mapper {
     int type = std::numeric_limits<int>::min();
     double* fields = nullptr;
     std::int64_t particles = 0;
-    double volume = 0, moment = 0;
+    double volume = 0, moment = 0, mass = 0, mass_moment = 0;
   };
 
   void flush(const Sums& sums) {
@@ -104,6 +125,25 @@ class Mapper {
     slot.particles += sums.particles;
     slot.volume += sums.volume;
     slot.moment += sums.moment;
+    slot.mass += sums.mass;
+    slot.mass_moment += sums.mass_moment;
+  }
+
+  double radius_of(int type) const {
+    const double r = setup_.settings.radius.at(type);
+    if (std::isnan(r))
+      throw InputError("run \"{}\": radius has no value for type {}, which occurs in the dumps",
+                       setup_.settings.label, type);
+    return r;
+  }
+
+  double density_of(int type) const {
+    if (setup_.density_from == RunSetup::Density::unknown) return readers::unknown;
+    const double density = setup_.density.at(type);
+    if (std::isnan(density))
+      throw InputError("run \"{}\": density has no value for type {}, which occurs in the dumps",
+                       setup_.settings.label, type);
+    return density;
   }
 
   const double* data(std::size_t column) const {
@@ -154,9 +194,12 @@ class Mapper {
     const auto [from, to] = *setup_.settings.temperature;
     const int bins = setup_.settings.temperature_bins;
     slot.histogram.resize(static_cast<std::size_t>(bins));
-    const double scaled = (t - from) / (to - from);
-    if (scaled < 0 || scaled > 1) return;
-    const int bin = std::min(static_cast<int>(scaled * bins), bins - 1);  // 1 belongs to the last
+    if (t < from || t > to) return;
+    // Edges decide, not the rounding of a division: from + k width, the last bin closed.
+    const double width = (to - from) / bins;
+    int bin = std::min(static_cast<int>((t - from) / width), bins - 1);
+    if (t < from + bin * width) --bin;
+    if (bin + 1 < bins && t >= from + (bin + 1) * width) ++bin;
     slot.histogram[static_cast<std::size_t>(bin)] += 1;
   }
 
@@ -165,6 +208,17 @@ class Mapper {
   std::size_t rows_;
   SnapshotProduct& out_;
 };
+
+/// Density of a slot relative to the first one's; 1 throughout where none is known.
+std::vector<double> relative_densities(const SnapshotProduct& product) {
+  std::vector<double> relative(product.used, 1);
+  for (std::size_t s = 0; s < product.used; ++s) {
+    const auto &slot = product.slots[s], &first = product.slots[0];
+    const double ratio = slot.mass / slot.volume / (first.mass / first.volume);
+    if (std::isfinite(ratio)) relative[s] = ratio;
+  }
+  return relative;
+}
 
 /// Volumes to holdups; profiles and depth averages on the way.
 void reduce(const RunSetup& setup, SnapshotProduct& out, ProductScratch& scratch) {
@@ -175,10 +229,13 @@ void reduce(const RunSetup& setup, SnapshotProduct& out, ProductScratch& scratch
   const double per_cell = 1 / grid.cell_volume();
   const double per_column = 1 / static_cast<double>(ny);
   out.holdup.assign(nx * nz, 0.);
-  scratch.holdup_vx.assign(nx * nz, 0.);
-  scratch.holdup_vz.assign(nx * nz, 0.);
+  scratch.mass.assign(nx * nz, 0.);
+  scratch.mass_vx.assign(nx * nz, 0.);
+  scratch.mass_vz.assign(nx * nz, 0.);
+  const auto densities = relative_densities(out);
   for (std::size_t s = 0; s < out.used; ++s) {
     auto& slot = out.slots[s];
+    const double per_column_mass = per_column * densities[s];
     const bool in_total = slot.key.rule < 0;
     slot.profiles.assign(2 * nz + 2 * nx * setup.heights.size(), 0.);
     double* q = slot.fields.data();
@@ -191,8 +248,9 @@ void reduce(const RunSetup& setup, SnapshotProduct& out, ProductScratch& scratch
           layer_v += q[2];
           if (!in_total) continue;
           out.holdup[i + nx * k] += per_column * q[0];
-          scratch.holdup_vx[i + nx * k] += per_column * q[1];
-          scratch.holdup_vz[i + nx * k] += per_column * q[2];
+          scratch.mass[i + nx * k] += per_column_mass * q[0];
+          scratch.mass_vx[i + nx * k] += per_column_mass * q[1];
+          scratch.mass_vz[i + nx * k] += per_column_mass * q[2];
         }
       slot.profiles[2 * k] = layer / static_cast<double>(nx * ny);
       slot.profiles[2 * k + 1] = layer_v / static_cast<double>(nx * ny);
@@ -239,7 +297,7 @@ void make_product(const RunSetup& setup, const readers::Series& series, std::siz
   const auto& ids = scratch.snapshot.columns[column_id];
   if (!ids.empty()) readers::find_doubled_ids(ids, i, scratch.marks, out.flaws);
   reduce(setup, out, scratch);
-  out.image = find_clusters(setup.grid, out.holdup, scratch.holdup_vx, scratch.holdup_vz,
+  out.image = find_clusters(setup.grid, out.holdup, scratch.mass, scratch.mass_vx, scratch.mass_vz,
                             setup.settings.clusters);
 }
 

@@ -24,8 +24,10 @@ struct SlotProduct {
   std::vector<double> fields;    ///< [cell][3]: phi, phi v_lateral, phi v_up
   std::vector<double> profiles;  ///< [layer][2], then [height][lateral cell][2]: phi, phi v_up
   std::int64_t particles = 0;
-  double volume = 0;  ///< of every particle of the dump [m3]
-  double moment = 0;  ///< sum of volume x height above the domain's floor [m4]
+  double volume = 0;       ///< of every particle of the dump [m3]
+  double moment = 0;       ///< sum of volume x height above the domain's floor [m4]
+  double mass = 0;         ///< [kg]; NaN where no density is known
+  double mass_moment = 0;  ///< sum of mass x height above the floor [kg m]
   std::int64_t with_temperature = 0;
   double shifted_sum = 0, shifted_squares = 0;  ///< of T - T0, T0 of the snapshot's first particle
   double coldest = 0, hottest = 0;
@@ -50,7 +52,7 @@ struct SnapshotProduct {
 struct ProductScratch {
   readers::Snapshot snapshot;
   readers::Scratch reader;
-  std::vector<double> holdup_vx, holdup_vz;
+  std::vector<double> mass, mass_vx, mass_vz;
   std::vector<std::uint64_t> marks;
 };
 

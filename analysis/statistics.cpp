@@ -308,7 +308,8 @@ SteadyStart steady_start(std::span<const double> series) {
   result.steady = best < half || !changes(series.subspan(sample(early - begin)));
   auto chosen = best;
   if (result.steady) {
-    chosen = *early > 0 ? half : early;  // an exactly constant rest is kept whole
+    chosen = *early > 0 ? half : early;              // an exactly constant rest is kept whole
+    if (*begin <= as_good * *early) chosen = begin;  // no start-up to be seen: nothing is cut
     while (*chosen > as_good * *early) --chosen;
   }
   result.start = sample(chosen - begin);

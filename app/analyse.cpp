@@ -45,9 +45,13 @@ void write_all(const Study& study, const std::vector<RunResult>& results, const 
   analysis::write_tables(results, folder / "tables");
   if (!options.tables_only) {
     analysis::write_results_file(results, folder / "results.h5");
-    report::write_report(results, study.title, folder);
   }
   analysis::write_summary(results, folder / "summary.json");
+  if (options.tables_only) return;
+  // Live, the page shall be there soon and renew itself; it links what stands beside it already.
+  const int refresh = options.follow ? std::max(1, static_cast<int>(options.interval)) : 0;
+  report::write_report(results, study.title, folder,
+                       {.png = !options.follow, .refresh_seconds = refresh});
 }
 
 void tell(const std::vector<RunResult>& results, const Options& options) {
@@ -94,6 +98,10 @@ void follow(const Study& study, const Options& options) {
     live.emplace_back(run.settings, analysis_options(options, silent));
   }
   std::string waiting;
+  const auto wait_for = [&](const Error& error) {
+    if (waiting != error.what() && !options.common.quiet) fmt::print("waiting: {}\n", error.what());
+    waiting = error.what();
+  };
   while (interrupted == 0) {
     bool news = false;
     try {
@@ -108,13 +116,11 @@ void follow(const Study& study, const Options& options) {
                        result.occurrence.size(), result.mean_holdup.value, result.mean_holdup.ci95);
       }
     } catch (const FileError& error) {  // nothing there yet
-      if (waiting != error.what() && !options.common.quiet)
-        fmt::print("waiting: {}\n", error.what());
-      waiting = error.what();
+      wait_for(error);
     } catch (const CutError& error) {  // the first dump is being written
-      if (waiting != error.what() && !options.common.quiet)
-        fmt::print("waiting: {}\n", error.what());
-      waiting = error.what();
+      wait_for(error);
+    } catch (const analysis::EmptyWindow& error) {  // the window is still to come
+      wait_for(error);
     }
     std::fflush(stdout);
     const auto until =

@@ -109,6 +109,9 @@ class HeaderReader {
       throw CutError("{}: line {}: expected {}, found end of file", path_,
                      line_at(path_, header_.offset) + header_.lines - 1, expected);
     ++header_.lines;
+    if (!window_.closed())
+      throw CutError("{}: line {}: {} has no line end: file is cut", path_,
+                     line_at(path_, header_.offset) + header_.lines - 1, quote(*line));
     return std::string(*line);
   }
 
@@ -543,6 +546,7 @@ void read(const std::string& path, const Located& where, const Request& request,
   while (auto line = window.line()) {
     if (line->find_first_not_of(" \t") == line->npos) continue;
     if (line->starts_with("ITEM:") && where.bytes != 0) break;
+    if (first_item.starts_with(*line)) break;  // a header that the killed run had just begun
     if (line->front() == '\0') break;
     if (line->starts_with("ITEM:"))
       throw FormatError(
@@ -572,7 +576,7 @@ std::string place(const std::string& path, const Located& where, std::size_t row
 bool matches(std::string_view head) {
   if (head.starts_with(byte_order_mark)) head.remove_prefix(byte_order_mark.size());
   while (!head.empty() && (is_blank(head.front()) && head.front() != '\0')) head.remove_prefix(1);
-  return head.starts_with(first_item);
+  return head.starts_with(first_item) || (!head.empty() && first_item.starts_with(head));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <set>
 
 #include "readers/error.hpp"
 #include "readers/source.hpp"
@@ -271,8 +272,9 @@ void Series::compare_snapshots() {
     const auto& a = entries_[i - 1].where;
     const auto& b = entries_[i].where;
     std::string changes;
-    const bool other_columns =
-        a.columns != nullptr && b.columns != nullptr && *a.columns != *b.columns;
+    const bool other_columns = a.columns != nullptr && b.columns != nullptr &&
+                               std::set(a.columns->begin(), a.columns->end()) !=
+                                   std::set(b.columns->begin(), b.columns->end());
     if (a.box.known && b.box.known && (!b.box.shrink_wrapped || other_columns)) {
       for (std::size_t axis = 0; axis < 3; ++axis)
         if (a.box.min[axis] != b.box.min[axis] || a.box.max[axis] != b.box.max[axis])

@@ -69,7 +69,7 @@ struct Field {
       flux_x[n] = holdup[n] * vx[n];
       flux_z[n] = holdup[n] * vz[n];
     }
-    return find_clusters(grid, holdup, flux_x, flux_z, thresholds);
+    return find_clusters(grid, holdup, holdup, flux_x, flux_z, thresholds);
   }
 };
 

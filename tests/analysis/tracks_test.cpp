@@ -45,7 +45,7 @@ ClusterImage snapshot(const Grid& grid, const std::vector<Shape>& shapes) {
       vz[cell] = 0.5 * shape.vz;
     }
   }
-  return find_clusters(grid, holdup, vx, vz, {0.2, 0.4, 0});
+  return find_clusters(grid, holdup, holdup, vx, vz, {0.2, 0.4, 0});
 }
 
 /// Feeds drawn snapshots to one tracker.

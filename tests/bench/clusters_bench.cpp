@@ -55,7 +55,8 @@ Field riser(int clusters) {
 }
 
 ClusterImage find(const Field& field, const ClusterThresholds& thresholds = {}) {
-  return find_clusters(field.grid, field.holdup, field.holdup_vx, field.holdup_vz, thresholds);
+  return find_clusters(field.grid, field.holdup, field.holdup, field.holdup_vx, field.holdup_vz,
+                       thresholds);
 }
 
 void report(benchmark::State& state, const ClusterImage& image) {
