@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "readers/columns.hpp"
 #include "readers/error.hpp"
 #include "readers/liggghts_log.hpp"
 
@@ -288,17 +289,19 @@ RunSetup set_up(const RunSettings& settings, const readers::Series& series) {
   if (!setup.has_velocity && first.snapshot.particles > 0)
     setup.problems.push_back("no velocity columns: velocities and mass fluxes are nan");
   setup.has_temperature = !first.column(FirstLook::temperature).empty();
-  setup.request = {{name("", lateral)},
-                   {name("", depth)},
-                   {name("", up)},
-                   {name("v", lateral), setup.has_velocity},
-                   {name("v", up), setup.has_velocity},
-                   {setup.radius_in_dumps ? "radius" : "no radius needed", setup.radius_in_dumps},
-                   {"type", !first.column(FirstLook::type).empty()},
-                   {"id", false},
-                   {setup.has_temperature ? settings.temperature_column : "no temperature",
-                    setup.has_temperature},
-                   density_column(setup)};
+  setup.request = {
+      {name("", lateral)},
+      {name("", depth)},
+      {name("", up)},
+      {name("v", lateral), setup.has_velocity},
+      {name("v", up), setup.has_velocity},
+      {setup.radius_in_dumps ? "radius" : "no radius needed", setup.radius_in_dumps},
+      {"type", !first.column(FirstLook::type).empty()},
+      {"id", false},
+      {setup.has_temperature ? readers::name_on_disk(series.columns(), settings.temperature_column)
+                             : "no temperature",
+       setup.has_temperature},
+      density_column(setup)};
   for (const auto& rule : settings.species) setup.request.push_back({rule.column});
   setup.request_without_id = setup.request;
   setup.request_without_id[column_id] = {"no id needed", false};

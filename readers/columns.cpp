@@ -146,6 +146,11 @@ ColumnPlan plan_columns(std::span<const std::string> names, const Request& reque
   return plan;
 }
 
+std::string name_on_disk(std::span<const std::string> names, const std::string& wanted) {
+  const auto column = find_column(names, wanted).raw[0];
+  return column < 0 ? wanted : names[static_cast<std::size_t>(column)];
+}
+
 void finish_columns(const ColumnPlan& plan, std::vector<std::vector<double>>& raw, Snapshot& out,
                     const std::string& where) {
   std::vector<int> uses(raw.size(), 0);

@@ -32,6 +32,10 @@ struct ColumnPlan {
 ColumnPlan plan_columns(std::span<const std::string> names, const Request& request,
                         const std::string& where);
 
+/// The name on disk that serves the field's name (`temperature`: f_Temp[0]); the same name where
+/// none does.
+std::string name_on_disk(std::span<const std::string> names, const std::string& wanted);
+
 /// Moves or computes the requested columns out of the parsed ones (raw[k] belongs to parse[k]).
 /// Throws FormatError where a scaled coordinate needs a box that is not known.
 void finish_columns(const ColumnPlan& plan, std::vector<std::vector<double>>& raw, Snapshot& out,
