@@ -69,7 +69,8 @@ std::vector<std::string> files_of_pattern(const std::string& pattern) {
   const int code = ::glob(pattern.c_str(), GLOB_NOSORT, nullptr, &found);
   std::vector<std::string> paths(found.gl_pathv, found.gl_pathv + (code == 0 ? found.gl_pathc : 0));
   ::globfree(&found);
-  std::erase_if(paths, [](const std::string& path) { return fs::is_directory(path); });
+  std::error_code ignored;  // what cannot be looked at is no folder; reading it gives the reason
+  std::erase_if(paths, [&](const std::string& path) { return fs::is_directory(path, ignored); });
   if (paths.empty())
     throw FileError("{}: no such file, and nothing matches it as a pattern", pattern);
   return paths;
@@ -119,8 +120,10 @@ void Series::open_files(const std::string& where, std::vector<std::string> paths
   std::sort(paths.begin(), paths.end());
   std::map<std::pair<std::string, std::string>, Group> groups;  // by form and stem of the name
   std::vector<std::string> empty_files;
+  std::vector<std::pair<NameParts, std::string>> strangers;  // with what is said of them
   for (const auto& path : paths) {
-    if (fs::file_size(path) == 0) {
+    std::error_code no_file;
+    if (fs::file_size(path, no_file) == 0) {
       empty_files.push_back(path);
       continue;
     }
@@ -132,7 +135,7 @@ void Series::open_files(const std::string& where, std::vector<std::string> paths
       group.paths.push_back(path);
       group.names.push_back(std::move(name));
     } catch (const FormatError& stranger) {
-      left_out_.emplace_back(stranger.what());
+      strangers.emplace_back(split_name(file_name(path)), stranger.what());
     }
   }
   // One thorough look into a group tells particles from companions. Its last file by name may be a
@@ -152,6 +155,15 @@ void Series::open_files(const std::string& where, std::vector<std::string> paths
     }
     return false;
   });
+  // A stranger that bears the name of a dump would leave a gap in the series.
+  std::vector<std::pair<NameParts, std::string>> broken;
+  for (auto& stranger : strangers) {
+    if (std::any_of(groups.begin(), groups.end(),
+                    [&](const auto& item) { return item.first.second == stranger.first.stem; }))
+      broken.push_back(std::move(stranger));
+    else
+      left_out_.push_back(std::move(stranger.second));
+  }
   if (groups.empty())
     throw FileError("{}: no particle dumps among {} files{}", where, paths.size(),
                     left_out_.empty() ? "" : fmt::format(" (first: {})", left_out_.front()));
@@ -176,6 +188,17 @@ void Series::open_files(const std::string& where, std::vector<std::string> paths
         last = group.paths[i];
       }
     }
+  }
+  for (const auto& [name, what] : broken) {
+    const auto& like =
+        *std::find_if(groups.begin(), groups.end(),
+                      [&, &stem = name.stem](auto& item) { return item.first.second == stem; });
+    const auto step = name.numbers.empty()
+                          ? std::nullopt
+                          : to_step(name.numbers[step_position(like.second.names)]);
+    if (step.value_or(last_step) <= last_step) throw FormatError("{}", what);
+    cut_ = true;
+    problems_.push_back(fmt::format("{}: left out", what));
   }
   for (const auto& [key, group] : groups) {
     const auto position = group.names.front().numbers.empty() ? 0 : step_position(group.names);
