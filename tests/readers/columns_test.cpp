@@ -94,22 +94,31 @@ TEST(Columns, ScaledCoordinatesNeedABoxAndOfATriclinicOneAllThree) {
 }
 
 TEST(Columns, ATiltedBoxIsTakenOutOfItsBoundingBox) {
-  // Corners of a box with edges (4,0,0), (-1,3,0), (.5,-.25,2) from the origin (1,2,3).
-  const double xy = -1, xz = .5, yz = -.25;
-  Box box;
-  box.known = true;
-  box.tilt = {xy, xz, yz};
-  box.min = {1 + xy, 2 + yz, 3};  // min(0, xy, xz, xy + xz) = xy
-  box.max = {1 + 4 + xz, 2 + 3, 3 + 2};
-  for (const double a : {0., .25, 1.})
-    for (const double b : {0., .5, 1.})
-      for (const double c : {0., .75, 1.}) {
-        const auto out =
-            one_particle({"xs", "ys", "zs"}, {a, b, c}, request_of({"x", "y", "z"}), box);
-        EXPECT_NEAR(out.columns[0][0], 1 + 4 * a + xy * b + xz * c, 1e-14);  // rounding
-        EXPECT_NEAR(out.columns[1][0], 2 + 3 * b + yz * c, 1e-14);
-        EXPECT_NEAR(out.columns[2][0], 3 + 2 * c, 1e-14);
+  // Corners of a box with edges (4,0,0), (xy,3,0), (xz,yz,2) from the origin (1,2,3).
+  for (const auto& [xy, xz, yz] : {std::array{-1., .5, -.25}, {.5, .25, .5}, {-.5, -1., .75}}) {
+    Box box;
+    box.known = true;
+    box.tilt = {xy, xz, yz};
+    box.min.fill(99);
+    box.max.fill(-99);
+    const auto corner = [&, &xy = xy, &xz = xz, &yz = yz](double a, double b, double c) {
+      return std::array{1 + 4 * a + xy * b + xz * c, 2 + 3 * b + yz * c, 3 + 2 * c};
+    };
+    for (int k = 0; k < 8; ++k)
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double at = corner(k & 1, k >> 1 & 1, k >> 2)[axis];
+        box.min[axis] = std::min(box.min[axis], at);
+        box.max[axis] = std::max(box.max[axis], at);
       }
+    for (const double a : {0., .25, 1.})
+      for (const double b : {0., .5, 1.})
+        for (const double c : {0., .75, 1.}) {
+          const auto out =
+              one_particle({"xs", "ys", "zs"}, {a, b, c}, request_of({"x", "y", "z"}), box);
+          for (std::size_t axis = 0; axis < 3; ++axis)
+            EXPECT_NEAR(out.columns[axis][0], corner(a, b, c)[axis], 1e-14);  // rounding
+        }
+  }
 }
 
 TEST(Columns, ADoubledNameIsParsedTwiceToBeComparedAndTheLastIsTaken) {

@@ -52,6 +52,8 @@ TEST(LiggghtsLog, DensitiesThatAreNotConstantAreNotKnown) {
       log_of("fix p all particletemplate/sphere 1 atom_type 1 density constant\n").density.empty());
   EXPECT_TRUE(log_of("fix p all particletemplate/sphere 1 atom_type 1e99 density constant 2500\n")
                   .density.empty());
+  EXPECT_TRUE(log_of("fix p all particletemplate/sphere 1 atom_type 0 density constant 2500\n")
+                  .density.empty());
   EXPECT_TRUE(log_of("fix p all particletemplate/sphere 1 atom_type nan density constant 2500\n")
                   .density.empty());
 }

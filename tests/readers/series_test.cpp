@@ -241,6 +241,20 @@ TEST(Series, ACutFileBeforeTheLastIsAnError) {
     }
 }
 
+TEST(Series, ACutFileOfManySnapshotsBeforeTheLastIsAnErrorToo) {
+  const TemporaryFolder folder;
+  const auto cut = small_dump(10, 5) + small_dump(20, 5).substr(0, 150);
+  const auto path = folder.write("part1.txt", cut);
+  folder.write("part2.txt", small_dump(30, 5) + small_dump(40, 5));
+  EXPECT_EQ(error_of([&] { Series::open(folder.path()); }).find(path + ": snapshot 20: "), 0U);
+  folder.write("part2.txt", cut);  // the last one: its complete snapshot is taken
+  folder.write("part1.txt", small_dump(1, 5));
+  const auto series = Series::open(folder.path());
+  EXPECT_EQ(steps_of(series), (Steps{1, 10}));
+  EXPECT_TRUE(series.cut());
+  EXPECT_EQ(series.problems().size(), 1U);
+}
+
 TEST(Series, AnEmptyLastFileIsLeftOutAndSaid) {
   const TemporaryFolder folder;
   folder.write("dump1.txt", small_dump(1, 5));
