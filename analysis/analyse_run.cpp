@@ -134,6 +134,7 @@ struct LiveAnalysis::State {
   std::optional<RunSums> sums;      // of the snapshots whose weights are final: all but the last
   RunResult result;
   double seconds = 0;
+  bool live = true;  // update() will be called again
 
   bool is_auto() const { return !settings.average.has_value(); }
 
@@ -187,7 +188,12 @@ struct LiveAnalysis::State {
     for_each_product(*setup, *series, sums->snapshots(), all, threads(),
                      [&](SnapshotProduct& product) {
                        const auto i = product.snapshot;
-                       if (i + 1 == all) complete.emplace(*sums);
+                       if (i + 1 == all) {
+                         if (live)
+                           complete.emplace(*sums);
+                         else
+                           complete.emplace(std::move(*sums));
+                       }
                        (complete ? *complete : *sums).add(product, weights[i]);
                        if (options.progress) options.progress(i + 1, all);
                      });
@@ -224,9 +230,12 @@ bool LiveAnalysis::update() { return state_->update(); }
 const RunResult& LiveAnalysis::result() const { return state_->result; }
 
 RunResult analyse_run(const RunSettings& settings, const AnalysisOptions& options) {
-  LiveAnalysis analysis(settings, options);
-  analysis.update();
-  return analysis.result();
+  LiveAnalysis::State state;
+  state.settings = settings;
+  state.options = options;
+  state.live = false;
+  state.update();
+  return std::move(state.result);
 }
 
 }  // namespace bedscope::analysis

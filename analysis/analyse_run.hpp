@@ -40,6 +40,7 @@ class LiveAnalysis {
   const RunResult& result() const;
 
  private:
+  friend RunResult analyse_run(const RunSettings& settings, const AnalysisOptions& options);
   struct State;
   std::unique_ptr<State> state_;
 };

@@ -20,33 +20,31 @@ std::array<int, 3> bed_axes(const RunSettings& settings) {
   return {settings.lateral, 3 - settings.lateral - settings.up, settings.up};
 }
 
-/// What the first snapshot with particles tells; further keys can default to it.
-struct FirstLook {
-  readers::Snapshot snapshot;
-  enum { x, y, z, vx, vy, vz, radius, type, density, mass, temperature };
-  const std::vector<double>& column(std::size_t k) const { return snapshot.columns[k]; }
-};
-
-FirstLook look(const RunSettings& settings, const readers::Series& series) {
-  std::size_t first = 0;
-  while (first + 1 < series.size() && series.located(first).particles == 0) ++first;
-  FirstLook found;
-  readers::Scratch scratch;
-  series.read(first,
-              {{"x"},
-               {"y"},
-               {"z"},
-               {"vx", false},
-               {"vy", false},
-               {"vz", false},
-               {"radius", false},
-               {"type", false},
-               {"density", false},
-               {"mass", false},
-               {settings.temperature_column, settings.temperature_column != "temperature"}},
-              found.snapshot, scratch);
-  return found;
+bool in_dumps(const readers::Series& series, const std::string& column) {
+  return readers::has_column(series.parts(), column);
 }
+
+/// The rows of the first snapshot with particles, for what the study leaves open; read only then.
+class FirstRows {
+ public:
+  enum { x, y, z, radius, type };
+  explicit FirstRows(const readers::Series& series) : series_(series) {}
+
+  const std::vector<double>& column(std::size_t k) {
+    if (snapshot_.columns.empty()) {
+      std::size_t first = 0;
+      while (first + 1 < series_.size() && series_.located(first).particles == 0) ++first;
+      readers::Scratch scratch;
+      series_.read(first, {{"x"}, {"y"}, {"z"}, {"radius", false}, {"type", false}}, snapshot_,
+                   scratch);
+    }
+    return snapshot_.columns[k];
+  }
+
+ private:
+  const readers::Series& series_;
+  readers::Snapshot snapshot_;
+};
 
 void find_time_step(const readers::LiggghtsLog& log, RunSetup& setup) {
   setup.time_step = setup.settings.time_step;
@@ -57,11 +55,11 @@ void find_time_step(const readers::LiggghtsLog& log, RunSetup& setup) {
                                        log.several_time_steps ? ", the last of several" : ""));
 }
 
-double mean_radius(const RunSetup& setup, const FirstLook& first) {
-  const auto& radius = first.column(FirstLook::radius);
-  const auto& type = first.column(FirstLook::type);
+double mean_radius(const RunSetup& setup, FirstRows& first) {
+  const auto& radius = first.column(FirstRows::radius);
+  const auto& type = first.column(FirstRows::type);
   double sum = 0, count = 0;
-  for (std::size_t i = 0; i < first.snapshot.particles; ++i) {
+  for (std::size_t i = 0; i < first.column(FirstRows::x).size(); ++i) {
     const double r = setup.radius_in_dumps
                          ? radius[i]
                          : setup.settings.radius.at(type.empty() ? 0 : static_cast<int>(type[i]));
@@ -72,7 +70,7 @@ double mean_radius(const RunSetup& setup, const FirstLook& first) {
   return count > 0 ? sum / count : readers::unknown;
 }
 
-void set_domain(const readers::Series& series, const FirstLook& first, RunSetup& setup) {
+void set_domain(const readers::Series& series, FirstRows& first, RunSetup& setup) {
   const auto& settings = setup.settings;
   std::array<double, 3> min{}, max{};
   std::array<bool, 3> periodic = settings.periodic.value_or(std::array<bool, 3>{});
@@ -118,7 +116,7 @@ void set_domain(const readers::Series& series, const FirstLook& first, RunSetup&
   }
 }
 
-void set_cells(const FirstLook& first, RunSetup& setup) {
+void set_cells(FirstRows& first, RunSetup& setup) {
   const auto& settings = setup.settings;
   auto& grid = setup.grid;
   // Two numbers: lateral and up; three: lateral, depth, up.
@@ -166,8 +164,7 @@ void set_cells(const FirstLook& first, RunSetup& setup) {
                      cells, most_cells);
 }
 
-void set_density(const readers::Series& series, const readers::LiggghtsLog& log,
-                 const FirstLook& first, RunSetup& setup) {
+void set_density(const readers::Series& series, const readers::LiggghtsLog& log, RunSetup& setup) {
   using From = RunSetup::Density;
   const auto& names = series.columns();
   // In dumps of multi-sphere bodies each row carries the mass of the whole body.
@@ -177,9 +174,9 @@ void set_density(const readers::Series& series, const readers::LiggghtsLog& log,
   setup.density = setup.settings.density;
   if (setup.density.given()) {
     setup.density_from = From::by_type;
-  } else if (!first.column(FirstLook::density).empty()) {
+  } else if (in_dumps(series, "density")) {
     setup.density_from = From::density_column;
-  } else if (!first.column(FirstLook::mass).empty() && !bodies) {
+  } else if (in_dumps(series, "mass") && !bodies) {
     setup.density_from = From::mass_column;
   } else if (!log.density.empty()) {
     setup.density_from = From::by_type;
@@ -262,20 +259,20 @@ RunSetup set_up(const RunSettings& settings, const readers::Series& series) {
   RunSetup setup;
   setup.settings = settings;
   const auto log = readers::find_log(series.path(0));
-  const auto first = look(settings, series);
   find_time_step(log, setup);
   update_times(setup, series);
 
-  setup.radius_in_dumps = !settings.radius.given();
-  if (setup.radius_in_dumps && first.snapshot.particles > 0 &&
-      first.column(FirstLook::radius).empty())
+  const bool empty = series.parts().empty();  // not one particle in all dumps, and no columns
+  setup.radius_in_dumps = !settings.radius.given() && !empty;
+  if (setup.radius_in_dumps && !in_dumps(series, "radius"))
     throw InputError(
         "run \"{}\": radius is missing: the dumps have none (columns: {}); expected radius = ... "
         "[m] in [scene]",
         settings.label, fmt::join(series.columns(), " "));
+  FirstRows first(series);
   set_domain(series, first, setup);
   set_cells(first, setup);
-  set_density(series, log, first, setup);
+  set_density(series, log, setup);
   set_heights(setup);
   setup.kernel = make_kernel(settings.mapping, setup.grid);
 
@@ -283,12 +280,13 @@ RunSetup set_up(const RunSettings& settings, const readers::Series& series) {
   const auto name = [&](const char* prefix, int k) {
     return prefix + std::string(1, "xyz"[axes[static_cast<std::size_t>(k)]]);
   };
-  setup.has_velocity =
-      !first.column(static_cast<std::size_t>(FirstLook::vx + axes[lateral])).empty() &&
-      !first.column(static_cast<std::size_t>(FirstLook::vx + axes[up])).empty();
-  if (!setup.has_velocity && first.snapshot.particles > 0)
-    setup.problems.push_back("no velocity columns: velocities and mass fluxes are nan");
-  setup.has_temperature = !first.column(FirstLook::temperature).empty();
+  setup.has_velocity = in_dumps(series, name("v", lateral)) && in_dumps(series, name("v", up));
+  if (!setup.has_velocity)
+    setup.problems.emplace_back("no velocity columns: velocities and mass fluxes are nan");
+  setup.has_temperature = in_dumps(series, settings.temperature_column);
+  if (!setup.has_temperature && settings.temperature_column != "temperature")
+    throw InputError("run \"{}\": temperature.column: the dumps have no \"{}\" (columns: {})",
+                     settings.label, settings.temperature_column, fmt::join(series.columns(), " "));
   setup.request = {
       {name("", lateral)},
       {name("", depth)},
@@ -296,9 +294,9 @@ RunSetup set_up(const RunSettings& settings, const readers::Series& series) {
       {name("v", lateral), setup.has_velocity},
       {name("v", up), setup.has_velocity},
       {setup.radius_in_dumps ? "radius" : "no radius needed", setup.radius_in_dumps},
-      {"type", !first.column(FirstLook::type).empty()},
+      {"type", in_dumps(series, "type")},
       {"id", false},
-      {setup.has_temperature ? readers::name_on_disk(series.columns(), settings.temperature_column)
+      {setup.has_temperature ? readers::name_on_disk(series.parts(), settings.temperature_column)
                              : "no temperature",
        setup.has_temperature},
       density_column(setup)};

@@ -431,15 +431,21 @@ RunResult RunSums::finish(const readers::Series& series, const Window& window) c
   }
   const std::size_t first_leaf = setup.settings.average ? 0 : window.first / fields_.size();
   const auto sum = fields_.total(first_leaf);
-  for (const auto& kind : species()) {
+  const auto kinds = species();
+  const auto& total = kinds.front();
+  for (const auto& kind : kinds) {
     result.types.push_back(kind.name);
     SpeciesResult found;
+    if (!result.species.empty() && kind.slots == total.slots) {
+      found = result.species.front();  // one type only: its numbers are the total's
+    } else {
+      profiles_of(kind, window, found, result.problems);
+      fields_of(kind, sum, found);
+      pdf_of(kind, window, found);
+    }
     found.type = kind.name;
-    profiles_of(kind, window, found, result.problems);
-    fields_of(kind, sum, found);
-    pdf_of(kind, window, found);
     inventory_of(kind, result);
-    if (found.temperature_outside > 0)
+    if (kind.name == "all" && found.temperature_outside > 0)
       result.problems.push_back(
           fmt::format("temperature PDF: {:.3g} % of the particles lie outside its range",
                       100 * found.temperature_outside));

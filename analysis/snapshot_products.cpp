@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "readers/error.hpp"
@@ -32,8 +33,12 @@ class Mapper {
     // Sums of the loop live in registers: stores into the fields could alias members.
     Sums sums;
     double total = 0, inside = 0, farthest = 0;
+    const auto& types = columns_[column_type];
+    const bool one_type =
+        std::adjacent_find(types.begin(), types.end(), std::not_equal_to<>()) == types.end();
+    const int only = rows_ > 0 ? type_of(0) : 0;
     for (std::size_t i = 0; i < rows_; ++i) {
-      const int of = type_of(i);
+      const int of = one_type ? only : type_of(i);
       const double r = radius != nullptr ? radius[i] : radius_of(of);
       const double u = vx != nullptr ? vx[i] : 0;
       const double w = vz != nullptr ? vz[i] : 0;

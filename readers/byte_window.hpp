@@ -3,6 +3,7 @@
 // never straddle its edge.
 #pragma once
 
+#include <algorithm>
 #include <cstring>
 #include <optional>
 #include <string_view>
@@ -35,9 +36,9 @@ class ByteWindow {
   }
   std::uint64_t offset() const { return offset(begin_); }
 
-  /// Reads more behind end(), moving the rest to the front; false at the end of the file.
-  /// Pointers into the window are invalid afterwards.
-  bool more() {
+  /// Reads more behind end(), at most `most` bytes, moving the rest to the front; false at the end
+  /// of the file. Pointers into the window are invalid afterwards.
+  bool more(std::size_t most = piece) {
     const std::size_t rest = size();
     if (2 * rest + padding > buffer_->size()) {  // a long line: grow
       std::vector<char> larger(buffer_->size() * 2);
@@ -47,7 +48,8 @@ class ByteWindow {
       std::memmove(buffer_->data(), begin_, rest);
     }
     begin_ = buffer_->data();
-    const auto got = source_->read({buffer_->data() + rest, buffer_->size() - padding - rest});
+    const auto room = buffer_->size() - padding - rest;
+    const auto got = source_->read({buffer_->data() + rest, std::min(room, most)});
     end_ = begin_ + rest + got;
     return got > 0;
   }

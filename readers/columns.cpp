@@ -146,6 +146,10 @@ ColumnPlan plan_columns(std::span<const std::string> names, const Request& reque
   return plan;
 }
 
+bool has_column(std::span<const std::string> names, const std::string& wanted) {
+  return find_column(names, wanted).raw[0] >= 0;
+}
+
 std::string name_on_disk(std::span<const std::string> names, const std::string& wanted) {
   const auto column = find_column(names, wanted).raw[0];
   return column < 0 ? wanted : names[static_cast<std::size_t>(column)];

@@ -32,6 +32,9 @@ struct ColumnPlan {
 ColumnPlan plan_columns(std::span<const std::string> names, const Request& request,
                         const std::string& where);
 
+/// Whether a request for this name can be served.
+bool has_column(std::span<const std::string> names, const std::string& wanted);
+
 /// The name on disk that serves the field's name (`temperature`: f_Temp[0]); the same name where
 /// none does.
 std::string name_on_disk(std::span<const std::string> names, const std::string& wanted);

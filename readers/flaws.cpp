@@ -24,7 +24,7 @@ void Flaws::Kind::add(std::size_t in_snapshot, std::size_t row, double id) {
   ++particles;
   if (rows.size() < named_rows) {
     rows.push_back(row);
-    if (std::isfinite(id) && std::abs(id) < 9e15) ids.push_back(static_cast<std::int64_t>(id));
+    ids.push_back(id);
   }
 }
 
@@ -53,7 +53,7 @@ std::vector<std::string> Flaws::describe(const Series& series) const {
     for (std::size_t k = 0; k < kind.rows.size(); ++k) {
       const auto place = series.place(kind.snapshot, kind.rows[k]);
       places += k == 0 ? place : ", " + place.substr(series.path(kind.snapshot).size() + 2);
-      if (k < kind.ids.size()) places += fmt::format(" (id {})", kind.ids[k]);
+      if (std::isfinite(kind.ids[k])) places += fmt::format(" (id {:.0f})", kind.ids[k]);
     }
     const auto in_first =
         kind.snapshots == 1 ? kind.particles : static_cast<std::int64_t>(kind.rows.size());

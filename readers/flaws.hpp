@@ -18,7 +18,7 @@ struct Flaws {
     std::int64_t snapshots = 0;
     std::size_t snapshot = 0;       ///< the first one that has some
     std::vector<std::size_t> rows;  ///< its first rows, at most 4
-    std::vector<std::int64_t> ids;  ///< their ids, where known
+    std::vector<double> ids;        ///< their ids, NaN where not known
 
     void add(std::size_t in_snapshot, std::size_t row, double id);
     void merge(const Kind& later);

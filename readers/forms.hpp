@@ -25,6 +25,9 @@ struct Located {
   std::shared_ptr<const Checkpoint> checkpoint;  ///< where a gzip file can be entered near `offset`
   Box box;
   std::shared_ptr<const std::vector<std::string>> columns;  ///< names as on disk
+  /// Names that a Request can use, positions and components of vectors included; null where only
+  /// scan(thorough) knows them.
+  std::shared_ptr<const std::vector<std::string>> parts;
 };
 
 /// What scan() found in one file.
@@ -55,6 +58,8 @@ struct Form {
   /// without it only what the headers say is looked at.
   /// Throws FileError, or FormatError where not one snapshot is complete.
   FileScan (*scan)(const std::string& path, bool thorough);
+  /// Does scan() without `thorough` tell particles from other things in this form?
+  bool glance_tells = false;
 
   /// Reads the columns asked for, and no others, of the snapshot that scan() located.
   /// Throws FormatError (path, place, expected, found) on anything that is not as it should be.

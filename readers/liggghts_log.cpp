@@ -51,7 +51,8 @@ LiggghtsLog read_log(const std::string& path) {
       if (words[i] == "density" && words[i + 1] == "constant" && i + 2 < words.size())
         density = number(words[i + 2]);
     }
-    if (type && density) log.density[static_cast<int>(*type)] = *density;
+    if (type && *type >= 1 && *type < 1e9 && density)
+      log.density[static_cast<int>(*type)] = *density;
   }
   return log;
 }

@@ -24,11 +24,21 @@ namespace {
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 constexpr std::string_view first_item = "ITEM: ";
 
+/// The first letters of another header, where a killed run stopped within "ITEM: ".
+bool is_cut_item(std::string_view line) { return !line.empty() && first_item.starts_with(line); }
+
 std::string quote(std::string_view text) {
   std::string quoted = "\"";
   for (const char c : text.substr(0, 40)) quoted += static_cast<unsigned char>(c) < ' ' ? '?' : c;
   return quoted + (text.size() > 40 ? "...\"" : "\"");
 }
+
+/// A dump of something else than atoms: one that is given by name is refused, one that lies in a
+/// folder of dumps is left out.
+class NotParticles : public FormatError {
+ public:
+  using FormatError::FormatError;
+};
 
 /// What stands before the rows of a snapshot.
 struct Header {
@@ -37,9 +47,8 @@ struct Header {
   std::int64_t particles = -1;
   Box box;
   std::vector<std::string> columns;
-  std::uint64_t offset = 0;   // of its first line
-  std::uint64_t lines = 0;    // up to and with "ITEM: ATOMS"
-  std::string not_particles;  // what it is instead; then nothing else is known
+  std::uint64_t offset = 0;  // of its first line
+  std::uint64_t lines = 0;   // up to and with "ITEM: ATOMS"
 };
 
 /// Reads the header of a snapshot line by line. The numbers of lines are counted from the
@@ -74,10 +83,8 @@ class HeaderReader {
         header_.particles = integer("the number of atoms");
         if (header_.particles < 0) fail("count is negative: {}", header_.particles);
       } else if (text.starts_with("NUMBER OF ENTRIES") || text.starts_with("NUMBER OF CONTACTS")) {
-        header_.not_particles =
-            fmt::format("line {}: a dump local ({}): contacts, not particles",
-                        line_at(path_, header_.offset) + header_.lines - 1, text.substr(10));
-        return header_;
+        throw NotParticles("{}: line {}: a dump local ({}): contacts, not particles", path_,
+                           line_at(path_, header_.offset) + header_.lines - 1, text.substr(10));
       } else if (text.starts_with("BOX BOUNDS")) {
         read_box(text.substr(10));
       } else if (text.starts_with("ATOMS")) {
@@ -110,8 +117,8 @@ class HeaderReader {
                      line_at(path_, header_.offset) + header_.lines - 1, expected);
     ++header_.lines;
     if (!window_.closed())
-      throw CutError("{}: line {}: {} has no line end: file is cut", path_,
-                     line_at(path_, header_.offset) + header_.lines - 1, quote(*line));
+      throw CutError("{}: line {}: no line end: file is cut", path_,
+                     line_at(path_, header_.offset) + header_.lines - 1);
     return std::string(*line);
   }
 
@@ -123,7 +130,7 @@ class HeaderReader {
     bool overflow = false;
     if (!parse_integer(word, value, overflow)) {
       if (overflow) fail("{} does not fit in 64 bits: {}", what, quote(word));
-      if (word.starts_with(first_item) || word.empty())
+      if (line.starts_with(first_item) || word.empty())
         fail("expected {}, found {}", what, quote(line));
       fail("expected an integer ({}), found {}", what, quote(word));
     }
@@ -298,7 +305,8 @@ Located locate(const Header& header, std::shared_ptr<const std::vector<std::stri
   located.particles = header.particles;
   located.offset = header.offset;
   located.box = header.box;
-  located.columns = std::move(columns);
+  located.columns = columns;
+  located.parts = std::move(columns);
   return located;
 }
 
@@ -325,13 +333,11 @@ std::optional<Located> glance(const std::string& path) {
   std::vector<char> buffer;
   ByteWindow window(source, buffer, first_look);
   const auto header = HeaderReader(window, path).next();
-  if (!header || !header->not_particles.empty() ||
-      !looks_single(path, *header, window, source.likely_size()))
-    return std::nullopt;
+  if (!header || !looks_single(path, *header, window, source.likely_size())) return std::nullopt;
   return locate(*header, std::make_shared<const std::vector<std::string>>(header->columns));
 }
 
-FileScan scan(const std::string& path, bool thorough) {
+FileScan find_snapshots(const std::string& path, bool thorough) {
   FileScan found;
   if (!thorough) {
     if (auto located = glance(path)) {
@@ -356,10 +362,6 @@ FileScan scan(const std::string& path, bool thorough) {
       break;
     }
     if (!header) break;
-    if (!header->not_particles.empty()) {
-      found.not_particles = header->not_particles;
-      return found;
-    }
     if (columns == nullptr || *columns != header->columns)
       columns = std::make_shared<const std::vector<std::string>>(header->columns);
     const auto body = skip_body(window);
@@ -379,6 +381,9 @@ FileScan scan(const std::string& path, bool thorough) {
       found.problems.push_back(fmt::format("steps are not in order: {} then {}; sorted by step",
                                            found.snapshots.back().step, located.step));
     found.snapshots.push_back(std::move(located));
+    if (!body.found_header && is_cut_item(body.tail))
+      found.cut = fmt::format("line {}: expected another snapshot, found {} and end of file",
+                              line_at(path, window.offset()), quote(body.tail));
     if (body.has_nul && !body.found_header)
       found.cut = fmt::format(
           "line {} (offset {}): NUL bytes after the last row (file system lost the tail?)",
@@ -392,6 +397,16 @@ FileScan scan(const std::string& path, bool thorough) {
   if (found.cut.empty()) found.cut = source.cut();
   if (!source.trailing().empty()) found.problems.push_back(source.trailing());
   return found;
+}
+
+FileScan scan(const std::string& path, bool thorough) {
+  try {
+    return find_snapshots(path, thorough);
+  } catch (const NotParticles& what) {
+    FileScan found;
+    found.not_particles = std::string(what.what()).substr(path.size() + 2);
+    return found;
+  }
 }
 
 // --- reading the rows
@@ -541,13 +556,12 @@ void read(const std::string& path, const Located& where, const Request& request,
     }
     window.drop_until(at);
   }
-  // Behind the last row: the end, blank lines, NUL bytes that scan() has told of, or another
-  // snapshot.
+  // Behind the last row: the end, blank lines, another snapshot, or what scan() has told of: NUL
+  // bytes, the first letters of another snapshot.
   while (auto line = window.line()) {
     if (line->find_first_not_of(" \t") == line->npos) continue;
     if (line->starts_with("ITEM:") && where.bytes != 0) break;
-    if (first_item.starts_with(*line)) break;  // a header that the killed run had just begun
-    if (line->front() == '\0') break;
+    if (line->front() == '\0' || (where.bytes != 0 && is_cut_item(*line))) break;
     if (line->starts_with("ITEM:"))
       throw FormatError(
           "{}: offset {}: holds further snapshots behind the {} particles of step {}; analyse this "
@@ -588,6 +602,7 @@ constinit const Form liggghts_text{
     .reference = "https://www.cfdem.com/media/DEM/docu/dump.html",
     .matches = matches,
     .scan = scan,
+    .glance_tells = true,
     .read = read,
     .place = place,
 };

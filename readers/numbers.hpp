@@ -18,8 +18,9 @@ inline constexpr std::array<double, 23> power_of_ten{1e0,  1e1,  1e2,  1e3,  1e4
                                                      1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 
 inline bool parse_any(const char* begin, const char* end, double& value) {
-  if (begin != end && *begin == '+') ++begin;
-  if (begin == end || *begin == '+') return false;
+  const bool plus = begin != end && *begin == '+';
+  begin += plus;
+  if (begin == end || *begin == '+' || (plus && *begin == '-')) return false;
   const auto [rest, error] = fast_float::from_chars(begin, end, value);
   if (error == std::errc::result_out_of_range) return rest == end;  // 0 or infinity, rounded
   return error == std::errc() && rest == end;
@@ -94,8 +95,9 @@ inline bool parse_integer(std::string_view token, std::int64_t& value, bool& ove
       overflow = true;
     magnitude = magnitude * 10 + digit;
   }
+  if (overflow) return false;
   value = negative ? -static_cast<std::int64_t>(magnitude) : static_cast<std::int64_t>(magnitude);
-  return !overflow;
+  return true;
 }
 
 }  // namespace bedscope::readers

@@ -18,41 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using NameParts = Series::NameParts;
-
-std::string file_name(const std::string& path) { return fs::path(path).filename().string(); }
-
-NameParts split_name(const std::string& name) {
-  NameParts parts;
-  for (std::size_t i = 0; i < name.size();) {
-    const auto digits = name.find_first_not_of("0123456789", i);
-    const auto end = digits == name.npos ? name.size() : digits;
-    if (end > i) {
-      parts.stem += '*';
-      parts.numbers.push_back(name.substr(i, end - i));
-      i = end;
-    } else {
-      parts.stem += name[i++];
-    }
-  }
-  return parts;
-}
-
-std::optional<std::int64_t> to_step(const std::string& digits) {
-  if (digits.size() > 18) return std::nullopt;
-  return std::stoll(digits);
-}
-
-/// Which run of digits of the names of one stem is the step: the last one that differs from file to
-/// file, or the last one where none does.
-std::size_t step_position(const std::vector<NameParts>& names) {
-  const auto count = names.front().numbers.size();
-  for (std::size_t k = count; k-- > 0;)
-    for (const auto& name : names)
-      if (name.numbers[k] != names.front().numbers[k]) return k;
-  return count - 1;
-}
-
 std::vector<std::string> files_of_folder(const std::string& folder) {
   std::vector<std::string> paths;
   std::error_code error;
@@ -70,20 +35,14 @@ std::vector<std::string> files_of_pattern(const std::string& pattern) {
   const int code = ::glob(pattern.c_str(), GLOB_NOSORT, nullptr, &found);
   std::vector<std::string> paths(found.gl_pathv, found.gl_pathv + (code == 0 ? found.gl_pathc : 0));
   ::globfree(&found);
-  std::erase_if(paths, [](const std::string& path) { return fs::is_directory(path); });
+  std::error_code ignored;  // what cannot be looked at is no folder; reading it gives the reason
+  std::erase_if(paths, [&](const std::string& path) { return fs::is_directory(path, ignored); });
   if (paths.empty())
     throw FileError("{}: no such file, and nothing matches it as a pattern", pattern);
   return paths;
 }
 
 }  // namespace
-
-/// Files of one form whose names differ in their numbers only.
-struct Series::Group {
-  const Form* form = nullptr;
-  std::vector<std::string> paths;
-  std::vector<NameParts> names;
-};
 
 Series Series::open(const std::string& where, const SeriesOptions& options) {
   Series series;
@@ -97,8 +56,9 @@ Series Series::open(const std::string& where, const SeriesOptions& options) {
     series.open_files(where, files_of_pattern(where));
   series.order(options);
   series.compare_snapshots();
-  if (series.entries_.front().where.columns != nullptr)
-    series.columns_ = *series.entries_.front().where.columns;
+  const auto& first = series.entries_.front().where;
+  if (first.columns != nullptr) series.columns_ = *first.columns;
+  if (first.parts != nullptr) series.parts_ = *first.parts;
   return series;
 }
 
@@ -106,113 +66,46 @@ void Series::open_file(const std::string& path) {
   form_ = &identify(path);
   auto scan = form_->scan(path, true);
   if (!scan.not_particles.empty()) throw FormatError("{}: {}", path, scan.not_particles);
-  const auto name = split_name(file_name(path));
+  const auto name = split_name(path);
   const auto step = name.numbers.empty() ? std::nullopt : to_step(name.numbers.back());
-  if (!scan.cut.empty()) {
-    cut_ = true;
-    problems_.push_back(fmt::format("{}: {}", path, scan.cut));
-  }
+  note_cut(path, scan);
   add(path, std::move(scan), step.value_or(0));
 }
 
 void Series::open_files(const std::string& where, std::vector<std::string> paths) {
-  if (paths.empty()) throw FileError("{}: no files in this folder", where);
-  std::sort(paths.begin(), paths.end());
-  std::map<std::pair<std::string, std::string>, Group> groups;  // by form and stem of the name
-  std::vector<std::string> empty_files;
-  for (const auto& path : paths) {
-    if (fs::file_size(path) == 0) {
-      empty_files.push_back(path);
-      continue;
-    }
+  auto folder = sort_out(where, std::move(paths));
+  form_ = folder.form;
+  left_out_ = std::move(folder.left_out);
+  columns_ = std::move(folder.columns);
+  parts_ = std::move(folder.parts);
+  for (const auto& file : folder.files) {
     try {
-      const auto& form = identify(path);
-      auto name = split_name(file_name(path));
-      auto& group = groups[{std::string(form.name), name.stem}];
-      group.form = &form;
-      group.paths.push_back(path);
-      group.names.push_back(std::move(name));
-    } catch (const FormatError& stranger) {
-      left_out_.emplace_back(stranger.what());
+      auto scan = form_->scan(file.path, file.last);
+      if (!scan.cut.empty() && !file.last) throw FormatError("{}: {}", file.path, scan.cut);
+      note_cut(file.path, scan);
+      if (scan.snapshots.size() == 1 && scan.cut.empty() && scan.snapshots[0].step != no_step)
+        judge_name(file, scan.snapshots[0]);
+      add(file.path, std::move(scan), file.step_of_name.value_or(0));
+    } catch (const CutError& error) {
+      if (!file.last || folder.files.size() == 1) throw;
+      folder.unfinished.emplace_back(error.what());
     }
   }
-  // One thorough look into a group tells particles from companions. Its last file by name may be a
-  // half-written one, so the first is taken; the others are checked when their turn comes.
-  std::erase_if(groups, [&](auto& item) {
-    auto& group = item.second;
-    for (std::size_t i = 0; i < group.paths.size(); ++i) {
-      try {
-        const auto scan = group.form->scan(group.paths[i], true);
-        if (scan.not_particles.empty()) {
-          if (columns_.empty() && !scan.snapshots.empty() && scan.snapshots[0].columns != nullptr)
-            columns_ = *scan.snapshots[0].columns;
-          return false;
-        }
-        for (const auto& path : group.paths)
-          left_out_.push_back(fmt::format("{}: {}", path, scan.not_particles));
-        return true;
-      } catch (const CutError&) {
-        if (i + 1 == group.paths.size()) return false;
-      }
-    }
-    return false;
-  });
-  if (groups.empty())
-    throw FileError("{}: no particle dumps among {} files{}", where, paths.size(),
-                    left_out_.empty() ? "" : fmt::format(" (first: {})", left_out_.front()));
-  const auto& first = *groups.begin();
-  for (const auto& [key, group] : groups)
-    if (group.form != first.second.form)
-      throw InputError(
-          "{}: dumps of two forms, {} ({}) and {} ({}): name one of them with a pattern", where,
-          first.first.second, first.second.form->name, key.second, group.form->name);
-  form_ = first.second.form;
-
-  // The file with the highest number in its name is the one that a killed run leaves cut.
-  std::string last;
-  std::int64_t last_step = std::numeric_limits<std::int64_t>::min();
-  for (const auto& [key, group] : groups) {
-    const auto position = group.names.front().numbers.empty() ? 0 : step_position(group.names);
-    for (std::size_t i = 0; i < group.paths.size(); ++i) {
-      const auto& numbers = group.names[i].numbers;
-      const auto step = numbers.empty() ? std::nullopt : to_step(numbers[position]);
-      if (step.value_or(0) >= last_step) {
-        last_step = step.value_or(0);
-        last = group.paths[i];
-      }
-    }
-  }
-  for (const auto& [key, group] : groups) {
-    const auto position = group.names.front().numbers.empty() ? 0 : step_position(group.names);
-    for (std::size_t i = 0; i < group.paths.size(); ++i) {
-      const auto& path = group.paths[i];
-      const auto& numbers = group.names[i].numbers;
-      const auto named = numbers.empty() ? std::nullopt : to_step(numbers[position]);
-      try {
-        auto scan = form_->scan(path, path == last || paths.size() == 1);
-        if (!scan.cut.empty()) {
-          if (path != last) throw FormatError("{}: {}", path, scan.cut);
-          cut_ = true;
-          problems_.push_back(fmt::format("{}: {}", path, scan.cut));
-        }
-        if (scan.snapshots.size() == 1 && scan.snapshots[0].step != no_step)
-          judge_name(path, group.names[i], scan.snapshots[0]);
-        add(path, std::move(scan), named.value_or(0));
-      } catch (const CutError& error) {
-        if (path != last || group.paths.size() == 1) throw;
-        cut_ = true;
-        problems_.push_back(fmt::format("{}: left out", error.what()));
-      }
-    }
-  }
-  for (const auto& path : empty_files) {
+  for (const auto& what : folder.unfinished) {
     cut_ = true;
-    problems_.push_back(fmt::format("{}: file is empty: left out", path));
+    problems_.push_back(fmt::format("{}: left out", what));
   }
 }
 
+void Series::note_cut(const std::string& path, const FileScan& scan) {
+  if (scan.cut.empty()) return;
+  cut_ = true;
+  problems_.push_back(fmt::format("{}: {}", path, scan.cut));
+}
+
 /// The step inside a file wins over its name; a name that tells another story is worth a word.
-void Series::judge_name(const std::string& path, const NameParts& name, const Located& located) {
+void Series::judge_name(const DumpFile& file, const Located& located) {
+  const auto& [path, name] = std::tie(file.path, file.name);
   const auto step = located.step;
   const auto names_step = [&](const std::string& digits) { return to_step(digits) == step; };
   if (name.numbers.empty()) return;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "readers/dump_folder.hpp"
 #include "readers/forms.hpp"
 
 namespace bedscope::readers {
@@ -45,6 +46,9 @@ class Series {
   /// Names of the columns as on disk, of the first snapshot; positions of VTK files not included.
   const std::vector<std::string>& columns() const { return columns_; }
 
+  /// Names that a request can use: positions and components of vectors included.
+  const std::vector<std::string>& parts() const { return parts_; }
+
   /// Things that a user should know, one line each: a cut last dump, steps out of order, two runs.
   const std::vector<std::string>& problems() const { return problems_; }
   /// Files of the folder that are not particle dumps, with what they are.
@@ -52,32 +56,25 @@ class Series {
   /// The last file breaks off inside its last snapshot (a run killed, or still writing).
   bool cut() const { return cut_; }
 
-  /// The runs of digits of a file's name, and the name with stars in their place: files of one stem
-  /// are of one dump command.
-  struct NameParts {
-    std::string stem;
-    std::vector<std::string> numbers;
-  };
-
  private:
   struct Entry {
     std::int64_t step = 0;
     std::size_t file = 0;
     Located where;
   };
-  struct Group;
 
   void open_file(const std::string& path);
   void open_files(const std::string& where, std::vector<std::string> paths);
   void add(const std::string& path, FileScan scan, std::int64_t step_of_name);
-  void judge_name(const std::string& path, const NameParts& name, const Located& located);
+  void note_cut(const std::string& path, const FileScan& scan);
+  void judge_name(const DumpFile& file, const Located& located);
   void order(const SeriesOptions& options);
   void compare_snapshots();
 
   const Form* form_ = nullptr;
   std::vector<std::string> files_;
   std::vector<Entry> entries_;
-  std::vector<std::string> columns_, problems_, left_out_;
+  std::vector<std::string> columns_, parts_, problems_, left_out_;
   bool cut_ = false;
 };
 

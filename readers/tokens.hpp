@@ -63,8 +63,8 @@ std::int64_t for_each_word(const char* begin, const char* end, Word&& word) {
 }
 
 /// Passes over at most `count` words of [begin, end), where `begin` is at a blank or the start of a
-/// word and `end` is behind a blank. Returns how many were passed and leaves `begin` behind the
-/// last.
+/// word. Returns how many were passed and leaves `begin` behind the last and its blank. 64 bytes
+/// behind `end` must be readable.
 inline std::int64_t skip_words(const char*& begin, const char* end, std::int64_t count) {
   std::int64_t passed = 0;
   std::uint64_t blank_before = 1;
@@ -85,7 +85,11 @@ inline std::int64_t skip_words(const char*& begin, const char* end, std::int64_t
       stops &= stops - 1;
     }
   }
-  if (begin > end) begin = end;  // the last word ended with the text
+  if (passed < count && blank_before == 0) {  // a word that fills the last block to its end
+    ++passed;
+    begin = end;
+  }
+  if (begin > end) begin = end;  // the last word has no blank behind it
   return passed;
 }
 

@@ -23,6 +23,7 @@
 namespace bedscope::readers {
 namespace {
 
+constexpr std::size_t header_bytes = 4096;  // more than the lines before an array take
 constexpr std::string_view magic = "# vtk DataFile Version ";
 
 enum class Kind { integer, real };
@@ -159,7 +160,7 @@ class Walk {
   std::string not_particles() const {
     if (dataset_ == "RECTILINEAR_GRID")
       return fmt::format("a RECTILINEAR_GRID{}, not particles",
-                         dimensions_ == "2 2 2" ? " bounding box companion" : "");
+                         dimensions_ == " 2 2 2" ? " bounding box companion" : "");
     if (other_dataset_) return fmt::format("a {}, not particles", dataset_);
     const auto has = [&](std::string_view name) {
       return std::find(arrays_.begin(), arrays_.end(), name) != arrays_.end();
@@ -196,6 +197,7 @@ class Walk {
 
   std::optional<std::string_view> next_line() {
     line_start_ = window_.offset();
+    if (binary_ && window_.size() == 0) window_.more(header_bytes);
     return window_.line();
   }
 
@@ -240,7 +242,7 @@ class Walk {
       other_dataset_ = true;
       if (const auto line_of_size = keyword_line();
           line_of_size && line_of_size->starts_with("DIMENSIONS"))
-        dimensions_ = line_of_size->substr(11);
+        dimensions_ = line_of_size->substr(10);
       while (dimensions_.ends_with(' ')) dimensions_.pop_back();
       done_ = true;
     } else if (dataset_ != "POLYDATA" && dataset_ != "UNSTRUCTURED_GRID") {
@@ -252,6 +254,7 @@ class Walk {
     std::string_view rest = line;
     const auto keyword = next_word(rest);
     if (keyword == "POINTS") {
+      if (points_ >= 0) fail("POINTS twice");
       points_ = count(next_word(rest), "POINTS");
       const auto& type = find_type(next_word(rest));
       if (only_points_) {
@@ -346,7 +349,7 @@ class Walk {
   void check_room(std::int64_t tuples, std::int64_t components, int size, const std::string& what) {
     const std::uint64_t bound = source_.size_bound();
     const std::uint64_t bytes_each =
-        binary_ ? static_cast<std::uint64_t>(size) : 2;  // a digit and a blank
+        binary_ || size == 1 ? static_cast<std::uint64_t>(size) : 2;  // a digit and a blank
     const auto most = bound / bytes_each + 1;
     if (components > 0 &&
         static_cast<std::uint64_t>(tuples) > most / static_cast<std::uint64_t>(components))
@@ -412,6 +415,7 @@ class Walk {
       const auto tuples = count(next_word(rest), name.c_str());
       const std::string type_name(next_word(rest));
       if (type_name == "string") {  // LIGGGHTS writes `element 1 0 string`: no tuples, a blank line
+        check_room(tuples, components, 1, "array " + name);
         skip_strings(name, tuples * components);
         if (in_data_ && in_point_data_) {
           arrays_.push_back(name);
@@ -425,7 +429,7 @@ class Walk {
           fail("array {}: {} tuples, {} {}", name, tuples, tuples_,
                in_point_data_ ? "points" : "cells");
         array(name, type, tuples, components);
-      } else if (name == "TimeValue" && tuples * components == 1) {
+      } else if (name == "TimeValue" && tuples == 1 && components == 1) {
         std::array<double*, 1> target{&time_};
         values(type, 1, target, name);
       } else {
@@ -462,8 +466,9 @@ class Walk {
     if (!in_point_data_) return skip_data(type, tuples, components, name);
     if (components > 10000) fail("array {}: {} components", name, components);
     arrays_.push_back(name);
-    for (auto& flat : component_names(name, static_cast<int>(components)))
-      flat_names_.push_back(std::move(flat));
+    for (auto& flat :
+         component_names(name, static_cast<int>(components)))  // POINTS are the positions
+      flat_names_.push_back(flat == "x" || flat == "y" || flat == "z" ? flat + " (array)" : flat);
     data(type, tuples, components, name);
   }
 
@@ -552,7 +557,8 @@ class Walk {
     while (done < all) {
       const std::size_t here = std::min(window_.size() / tuple_bytes, all - done);
       if (here == 0) {
-        if (!window_.more())
+        // Not beyond the array and the header behind it: the next array may not be wanted.
+        if (!window_.more((all - done) * tuple_bytes - window_.size() + header_bytes))
           fail_cut("end of file inside {}: {} tuples declared, {} present", what, all, done);
         continue;
       }
@@ -642,7 +648,10 @@ FileScan scan(const std::string& path, bool thorough) {
   Located located;
   located.particles = walk.points();
   located.time = walk.time();
-  if (thorough) located.columns = std::make_shared<const std::vector<std::string>>(walk.arrays());
+  if (thorough) {
+    located.columns = std::make_shared<const std::vector<std::string>>(walk.arrays());
+    located.parts = std::make_shared<const std::vector<std::string>>(walk.names());
+  }
   found.snapshots.push_back(std::move(located));
   if (!walk.trailing().empty()) found.problems.push_back(walk.trailing());
   return found;
@@ -664,11 +673,10 @@ void read(const std::string& path, const Located&, const Request& request, Snaps
       if (sure) throw;
       planned = false;
     }
+    if (!planned) plan.parse = {0, 1, 2};  // positions: numbers that are parsed are counted best
     Walk walk(path, scratch.bytes);
-    if (planned) {
-      if (scratch.raw.size() < plan.parse.size()) scratch.raw.resize(plan.parse.size());
-      for (std::size_t k = 0; k < plan.parse.size(); ++k) walk.want(plan.parse[k], scratch.raw[k]);
-    }
+    if (scratch.raw.size() < plan.parse.size()) scratch.raw.resize(plan.parse.size());
+    for (std::size_t k = 0; k < plan.parse.size(); ++k) walk.want(plan.parse[k], scratch.raw[k]);
     walk.run();
     if (const auto what = walk.not_particles(); !what.empty())
       throw FormatError("{}: {}", path, what);

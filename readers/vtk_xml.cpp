@@ -166,6 +166,7 @@ FileScan scan(const std::string& path, bool thorough) {
     for (const DataArray& array : piece->point_data) names.push_back(array.name);
   }
   snapshot.columns = std::make_shared<const std::vector<std::string>>(std::move(names));
+  snapshot.parts = std::make_shared<const std::vector<std::string>>(flat_columns(document).names);
   found.snapshots.push_back(std::move(snapshot));
   return found;
 }
@@ -236,11 +237,14 @@ void read(const std::string& path, const Located& /*where*/, const Request& requ
 }  // namespace
 
 extern const Form vtk_xml;
-const Form vtk_xml = {"vtk-xml",
-                      "VTK XML particles, .vtp and .vtu (LIGGGHTS, OpenFOAM, ParaView)",
-                      "https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html",
-                      matches,
-                      scan,
-                      read};
+const Form vtk_xml{
+    .name = "vtk-xml",
+    .description = "VTK XML particles, .vtp and .vtu (LIGGGHTS, OpenFOAM, ParaView)",
+    .reference = "https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html",
+    .matches = matches,
+    .scan = scan,
+    .glance_tells = true,
+    .read = read,
+};
 
 }  // namespace bedscope::readers

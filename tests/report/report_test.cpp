@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The folder that write_report leaves: files, page, what is left out and why.
 #include <fmt/format.h>
+#include <unistd.h>
+
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -29,7 +31,8 @@ std::string content(const fs::path& path) {
 class Place {
  public:
   explicit Place(const std::string& name)
-      : folder_(fs::path(testing::TempDir()) / ("bedscope_report_" + name)) {
+      : folder_(fs::path(testing::TempDir()) /
+                fmt::format("bedscope_report_{}_{}", ::getpid(), name)) {
     fs::remove_all(folder_);
   }
   ~Place() { fs::remove_all(folder_); }

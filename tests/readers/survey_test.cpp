@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a look at a series says of it.
+#include "readers/survey.hpp"
+
+#include "tests/readers/test_files.hpp"
+
+namespace bedscope::readers {
+namespace {
+
+TEST(Survey, RangesAreThoseOfTheRows) {
+  const TemporaryFolder folder;
+  folder.write("dump1", dump_header(1, 3, "id type x y z radius") +
+                            "1 1 -1 2 3 .5 \n2 3 4 -5 6 .25 \n5 3 0 0 0 1 \n");
+  folder.write("dump2", dump_header(2, 1, "id type x y z radius") + "1 2 9 0 0 .125 \n");
+  const auto found = survey(Series::open(folder.path()), true);
+  EXPECT_EQ(found.particles, (std::array<std::int64_t, 2>{1, 3}));
+  EXPECT_EQ(found.types, (std::map<std::int64_t, std::int64_t>{{1, 1}, {2, 1}, {3, 2}}));
+  EXPECT_TRUE(found.has_radius);
+  EXPECT_EQ(found.radius, (std::array{.125, 1.}));
+  EXPECT_EQ(found.min, (std::array{-1., -5., 0.}));
+  EXPECT_EQ(found.max, (std::array{9., 2., 6.}));
+  EXPECT_EQ(found.snapshots_read, 2U);
+  EXPECT_TRUE(found.problems.empty());
+}
+
+TEST(Survey, TheRowsOfTenSnapshotsAreReadTheFirstAndTheLastAmongThemUnlessAllAreAskedFor) {
+  const TemporaryFolder folder;
+  for (int step = 0; step < 37; ++step)
+    folder.write(fmt::format("dump{}", step), small_dump(step, step == 0 || step == 36 ? 9 : 5));
+  const auto series = Series::open(folder.path());
+  const auto some = survey(series, false);
+  EXPECT_EQ(some.snapshots_read, 10U);
+  EXPECT_EQ(some.particles, (std::array<std::int64_t, 2>{5, 9}));
+  EXPECT_EQ(some.types.at(1), 9 + 8 * 5 + 9);
+  EXPECT_EQ(survey(series, true).snapshots_read, 37U);
+}
+
+TEST(Survey, ParticlesThatAreNotFiniteOrHaveNoSizeAreNamedAndKeptOutOfTheRanges) {
+  const TemporaryFolder folder;
+  const auto path = folder.write(
+      "dump1",
+      dump_header(1, 5, "id x y z radius vx") +
+          "1 .5 0 0 1 0 \n2 nan 0 99 1 0 \n3 .25 0 0 0 0 \n4 77 0 0 1 inf \n1 .75 0 0 1 0 \n");
+  const auto found = survey(Series::open(path), true);
+  EXPECT_EQ(found.max, (std::array{.75, 0., 0.}));
+  ASSERT_EQ(found.problems.size(), 3U);
+  EXPECT_NE(found.problems[0].find("2 particles in 1 snapshots are not finite"), std::string::npos);
+  EXPECT_NE(found.problems[0].find("line 11 (id 2), line 13 (id 4)"), std::string::npos)
+      << found.problems[0];
+  EXPECT_NE(found.problems[1].find("1 particles in 1 snapshots have a radius of zero"),
+            std::string::npos);
+  EXPECT_NE(found.problems[1].find("line 12 (id 3)"), std::string::npos) << found.problems[1];
+  EXPECT_NE(found.problems[2].find("line 14 (id 1)"), std::string::npos) << found.problems[2];
+}
+
+TEST(Survey, ASeriesWithoutParticlesHasNoRanges) {
+  const TemporaryFolder folder;
+  const auto found = survey(Series::open(folder.write("dump1", small_dump(1, 0))), true);
+  EXPECT_FALSE(found.has_particles);
+  EXPECT_FALSE(found.has_radius);
+  EXPECT_EQ(found.particles, (std::array<std::int64_t, 2>{0, 0}));
+}
+
+TEST(Survey, WithoutARadiusOrTypesThereAreNone) {
+  const TemporaryFolder folder;
+  const auto found =
+      survey(Series::open(folder.write("dump1", dump_header(1, 1, "x y z") + "1 2 3 \n")), true);
+  EXPECT_TRUE(found.has_particles);
+  EXPECT_FALSE(found.has_radius);
+  EXPECT_TRUE(found.types.empty());
+}
+
+}  // namespace
+}  // namespace bedscope::readers
