@@ -246,8 +246,10 @@ inline int GridAxis::cell_of(double x) const {
 
 template <class Add>
 double CentreKernel::share(const Vec3& centre, double radius, Add&& add) const {
-  const int i = axes_[0].cell_of(centre[0]), j = axes_[1].cell_of(centre[1]),
-            k = axes_[2].cell_of(centre[2]);
+  const int i = axes_[lateral].cell_of(centre[lateral]), k = axes_[up].cell_of(centre[up]);
+  const int j = !axes_.depth_averaged()             ? axes_[depth].cell_of(centre[depth])
+                : axes_.within_depth(centre[depth]) ? 0
+                                                    : GridAxis::outside;
   if (!GridAxes::inside(i, j, k) || !(radius > 0.0)) return 0.0;
   const double volume = sphere_volume(radius);
   add(axes_.index(i, j, k), volume);
