@@ -597,7 +597,7 @@ TEST(LiggghtsText, ACountThatLiesReservesNoMemory) {
 
 TEST(LiggghtsText, TheLineOfAParticleIsKnown) {
   const TemporaryFolder folder;
-  const auto path = folder.write("dump", "\n" + small_dump(1, 5) + small_dump(2, 5));
+  const auto path = folder.write("dump", fmt::format("\n{}{}", small_dump(1, 5), small_dump(2, 5)));
   const auto found = liggghts_text.scan(path, true);
   EXPECT_EQ(liggghts_text.place(path, found.snapshots[0], 0), "line 11");
   EXPECT_EQ(liggghts_text.place(path, found.snapshots[1], 4), "line 29");
