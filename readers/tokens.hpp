@@ -4,6 +4,7 @@
 #pragma once
 
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 
@@ -21,7 +22,7 @@ inline std::uint64_t blank_mask(const char* at) {
   std::uint64_t mask = 0;
 #ifdef __SSE2__
   const __m128i blank = _mm_set1_epi8(' ');
-  for (int k = 0; k < 4; ++k) {
+  for (std::ptrdiff_t k = 0; k < 4; ++k) {
     const __m128i bytes = _mm_loadu_si128(reinterpret_cast<const __m128i*>(at + 16 * k));
     const __m128i is = _mm_cmpeq_epi8(_mm_min_epu8(bytes, blank), bytes);
     mask |= std::uint64_t{static_cast<std::uint32_t>(_mm_movemask_epi8(is))} << (16 * k);

@@ -117,27 +117,27 @@ class Damage : public testing::TestWithParam<Fixture> {
  protected:
   void expect_calm() const {
     // A count that lies would take longer than this to be filled, let alone 8 TB of it.
-    EXPECT_LT(outcomes_.slowest, std::chrono::seconds(2));
+    EXPECT_LT(outcomes.slowest, std::chrono::seconds(2));
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
 #if !defined(__SANITIZE_ADDRESS__)
     EXPECT_LT(usage.ru_maxrss, 100 * 1024) << "kB";
 #endif
   }
-  TemporaryFolder folder_;
-  Outcomes outcomes_;
+  TemporaryFolder folder;
+  Outcomes outcomes;
 };
 
 TEST_P(Damage, WholeFilesAreGood) {
-  use(folder_.write("dump", GetParam().content), outcomes_);
-  EXPECT_EQ(outcomes_.read, 1U);
+  use(folder.write("dump", GetParam().content), outcomes);
+  EXPECT_EQ(outcomes.read, 1U);
 }
 
 TEST_P(Damage, FilesCutAtAnyByteAreReadOrRefused) {
   const auto& content = GetParam().content;
   for (std::size_t size = 0; size < content.size(); ++size)
-    use(folder_.write("dump", content.substr(0, size)), outcomes_);
-  EXPECT_GT(outcomes_.refused, content.size() / 4);
+    use(folder.write("dump", content.substr(0, size)), outcomes);
+  EXPECT_GT(outcomes.refused, content.size() / 4);
   expect_calm();
 }
 
@@ -149,10 +149,10 @@ TEST_P(Damage, FilesWithAnyByteChangedAreReadOrRefused) {
     for (const int value : {0, int{'9'}, static_cast<int>(random() % 256)}) {
       auto changed = content;
       changed[at] = static_cast<char>(value);
-      use(folder_.write("dump", changed), outcomes_);
+      use(folder.write("dump", changed), outcomes);
     }
-  EXPECT_GT(outcomes_.refused, 50U);
-  EXPECT_GT(outcomes_.read, 10U);
+  EXPECT_GT(outcomes.refused, 50U);
+  EXPECT_GT(outcomes.read, 10U);
   expect_calm();
 }
 
@@ -179,7 +179,7 @@ TEST_P(Damage, FilesWithPiecesMovedAboutAreReadOrRefused) {
       }
       if (changed.empty()) changed = content;
     }
-    use(folder_.write("dump", changed), outcomes_);
+    use(folder.write("dump", changed), outcomes);
   }
   expect_calm();
 }

@@ -261,7 +261,7 @@ TEST(LiggghtsText, RowsMayEndAnywhereAroundTheEndOfAPieceThatIsRead) {
   ASSERT_LT(first.size(), ByteWindow::piece + 30'000);
   ASSERT_GT(first.size(), ByteWindow::piece);
   for (std::size_t shift = 0; shift < 130; ++shift) {
-    const auto path = folder.write("dump", std::string(shift, '\n') + first + tail);
+    const auto path = folder.write("dump", fmt::format("{:\n>{}}{}{}", "", shift, first, tail));
     const auto found = liggghts_text.scan(path, true);
     ASSERT_EQ(found.snapshots.size(), 2U);
     ASSERT_EQ(found.cut, "");
@@ -283,7 +283,7 @@ TEST(LiggghtsText, AHeaderMayLieAcrossTheEndOfAPieceThatIsRead) {
   const auto edge = (first.size() / ByteWindow::piece + 1) * ByteWindow::piece;
   for (std::size_t k = 0; k < 150; ++k) {
     const auto blanks = edge - first.size() - 1 - k;
-    const auto path = folder.write("dump", first + std::string(blanks, ' ') + "\n" + second);
+    const auto path = folder.write("dump", fmt::format("{}{:>{}}\n{}", first, "", blanks, second));
     const auto found = liggghts_text.scan(path, true);
     ASSERT_EQ(found.snapshots.size(), 2U) << k;
     ASSERT_EQ(found.snapshots[1].step, 8) << k;
@@ -597,7 +597,7 @@ TEST(LiggghtsText, ACountThatLiesReservesNoMemory) {
 
 TEST(LiggghtsText, TheLineOfAParticleIsKnown) {
   const TemporaryFolder folder;
-  const auto path = folder.write("dump", "\n" + small_dump(1, 5) + small_dump(2, 5));
+  const auto path = folder.write("dump", fmt::format("\n{}{}", small_dump(1, 5), small_dump(2, 5)));
   const auto found = liggghts_text.scan(path, true);
   EXPECT_EQ(liggghts_text.place(path, found.snapshots[0], 0), "line 11");
   EXPECT_EQ(liggghts_text.place(path, found.snapshots[1], 4), "line 29");

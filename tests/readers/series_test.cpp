@@ -252,7 +252,7 @@ TEST(Series, ACutFileOfManySnapshotsBeforeTheLastIsAnErrorToo) {
   const auto series = Series::open(folder.path());
   EXPECT_EQ(steps_of(series), (Steps{1, 10}));
   EXPECT_TRUE(series.cut());
-  EXPECT_EQ(series.problems().size(), 1U);
+  EXPECT_NE(all(series.problems()).find("part2.txt: snapshot 20: "), std::string::npos);
 }
 
 TEST(Series, AnEmptyLastFileIsLeftOutAndSaid) {

@@ -3,9 +3,9 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
 #include <zlib.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -35,6 +35,7 @@ class TemporaryFolder {
 
   std::string path(const std::string& name = {}) const { return (path_ / name).string(); }
   std::string write(const std::string& name, const std::string& content) const {
+    fs::remove(path_ / name);  // some file systems flush to disk what is truncated and rewritten
     std::ofstream(path_ / name, std::ios::binary) << content;
     return path(name);
   }

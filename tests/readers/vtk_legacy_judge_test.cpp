@@ -25,8 +25,8 @@
 #include <vtkUnstructuredGridReader.h>
 #include <vtkUnstructuredGridWriter.h>
 
+#include <bit>
 #include <cmath>
-#include <cstring>
 #include <random>
 
 #include "readers/columns.hpp"
@@ -63,6 +63,7 @@ vtkSmartPointer<vtkPointSet> judge(const std::string& path) {
 std::size_t compare(const std::string& path, vtkPointSet& theirs) {
   Request request = {{"x"}, {"y"}, {"z"}};
   std::vector<std::pair<vtkDataArray*, int>> components;
+  components.reserve(3);
   for (int c = 0; c < 3; ++c) components.emplace_back(theirs.GetPoints()->GetData(), c);
   for (int a = 0; a < theirs.GetPointData()->GetNumberOfArrays(); ++a) {
     vtkDataArray* array = theirs.GetPointData()->GetArray(a);
@@ -83,7 +84,8 @@ std::size_t compare(const std::string& path, vtkPointSet& theirs) {
     std::size_t different = 0;
     for (std::size_t i = 0; i < snapshot.particles; ++i, ++compared) {
       const double expected = array->GetComponent(static_cast<vtkIdType>(i), component);
-      if (std::memcmp(&expected, &snapshot.columns[k].at(i), sizeof expected) != 0) ++different;
+      different += std::bit_cast<std::uint64_t>(expected) !=
+                   std::bit_cast<std::uint64_t>(snapshot.columns[k].at(i));
     }
     EXPECT_EQ(different, 0U) << request[k].name << " of " << path;
   }
