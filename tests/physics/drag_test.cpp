@@ -127,6 +127,19 @@ TEST(Gidaspow, IsErgunUpToAVoidageOfFourFifthsAndWenYuAbove) {
   EXPECT_GT(std::abs(ergun(0.8, 50) / wen_yu(0.8, 50) - 1), 0.1);  // the step that it is known for
 }
 
+TEST(DiFelice, HasTheExponentAndTheDragOfItsPaper) {
+  const auto exponent = [](double Re) {
+    return std::log(di_felice(0.5, Re) / di_felice(1, Re)) / std::log(2.0);
+  };
+  EXPECT_NEAR(exponent(std::pow(10, 1.5)), 3.05, 1e-12);                    // 3.7 - 0.65, the least
+  EXPECT_NEAR(exponent(std::pow(10, 2.5)), 3.7 - 0.65 * 0.60653066, 1e-8);  // e^-1/2
+  EXPECT_NEAR(exponent(1e-12), 3.7, 1e-12);                                 // both ends
+  EXPECT_NEAR(24 * di_felice(1, 1e16) / 1e16, 0.63 * 0.63, 1e-6);  // inertial: 4.8 / sqrt(Re) left
+  // Dallavalle's fit lies above Schiller and Naumann's: for the riser's particle by a third.
+  EXPECT_NEAR(di_felice(1, 10) / wen_yu(1, 10), 1.11, 0.01);    // 4.63 and 4.15
+  EXPECT_NEAR(di_felice(1, 900) / wen_yu(1, 900), 1.37, 0.01);  // 0.624 and 0.455
+}
+
 TEST(DiFelice, SettlesLikeRichardsonAndZakiAtBothEnds) {
   // u / u_t = eps^n with n = 4.65 (creeping) and 2.39 (inertial), Richardson and Zaki (1954). Only
   // in this form of F, without the pressure gradient's force, does the law come near both.

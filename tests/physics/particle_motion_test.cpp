@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <string>
 
 namespace bedscope::physics {
 namespace {
@@ -62,7 +63,13 @@ TEST(TerminalVelocity, IsWhereAFallingSphereEndsUp) {
 }
 
 TEST(TerminalVelocity, OfWhatFloatsIsRefused) {
-  EXPECT_THROW(terminal_velocity({1e-3, 1.0}, air, g), std::domain_error);
+  try {
+    terminal_velocity({1e-3, 1.0}, air, g);
+    FAIL();
+  } catch (const std::domain_error& error) {
+    EXPECT_EQ(std::string(error.what()).find("expected a positive weight less buoyancy, found -"),
+              0u);
+  }
   EXPECT_THROW(terminal_velocity({-1e-3, 2500}, air, g), std::domain_error);
   EXPECT_THROW(terminal_velocity({std::nan(""), 2500}, air, g), std::domain_error);
   EXPECT_THROW(terminal_velocity(riser_particle, air, 0), std::domain_error);
