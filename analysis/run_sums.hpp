@@ -34,17 +34,19 @@ class RunSums {
 
  private:
   struct SlotSample {
-    std::int64_t particles = 0;
-    double volume = 0, moment = 0, mass = 0, mass_moment = 0;
-    std::int64_t with_temperature = 0;
-    double shifted_sum = 0, shifted_squares = 0, coldest = 0, hottest = 0;
+    SolidsSum solids;
+    TemperatureSum temperature;
   };
   struct Sample {
     std::vector<SlotSample> slots;  // by number of the slot; later ones are zero
     double volume = 0, volume_inside = 0, temperature_zero = 0;
     double weight = 0;
   };
-  struct Species;
+  /// A name, and the slots whose sum it is.
+  struct Species {
+    std::string name;
+    std::vector<std::size_t> slots;
+  };
 
   std::size_t slot_number(SlotKey key);
   std::vector<double> densities() const;

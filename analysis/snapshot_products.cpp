@@ -28,10 +28,11 @@ class Mapper {
     const double* const radius = data(column_radius);
     const double floor = setup_.grid.min[up];
     const double* const density = data(column_density);
-    const bool by_mass = setup_.density_from == RunSetup::Density::mass_column;
+    const bool by_mass =
+        density != nullptr && setup_.density_from == RunSetup::Density::mass_column;
     const std::size_t rules = setup_.settings.species.size();
     // Sums of the loop live in registers: stores into the fields could alias members.
-    Sums sums;
+    Run sums;
     double total = 0, inside = 0, farthest = 0;
     const auto& types = columns_[column_type];
     const bool one_type =
@@ -42,27 +43,23 @@ class Mapper {
       const double r = radius != nullptr ? radius[i] : radius_of(of);
       const double u = vx != nullptr ? vx[i] : 0;
       const double w = vz != nullptr ? vz[i] : 0;
-      if (!std::isfinite(x[i] + y[i] + z[i] + u + w + r)) {  // one test for nan and inf in any
+      const double m = density != nullptr ? density[i] : 0;
+      if (!std::isfinite(x[i] + y[i] + z[i] + u + w + r + m)) {  // one test for nan and inf in any
         out_.flaws.not_finite.add(out_.snapshot, i, id(i));
         continue;
       }
       if (of != sums.type) {
         flush(sums);
-        sums = {.type = of, .fields = slot_of({of, -1}).fields.data()};
+        sums = {of, slot_of({of, -1}).fields.data(), {}};
       }
-      ++sums.particles;
+      ++sums.solids.particles;
       if (r <= 0) {
         out_.flaws.no_size.add(out_.snapshot, i, id(i));
         continue;
       }
       const double volume = sphere_volume(r);
-      sums.volume += volume;
-      sums.moment += volume * (z[i] - floor);
-      if (density != nullptr) {
-        const double mass = by_mass ? density[i] : density[i] * volume;
-        sums.mass += mass;
-        sums.mass_moment += mass * (z[i] - floor);
-      }
+      const double mass = by_mass ? density[i] : density != nullptr ? density[i] * volume : 0;
+      sums.solids.add(volume, mass, z[i] - floor);
       total += volume;
       const double part = share(kernel, {x[i], y[i], z[i]}, r, u, w, sums.fields);
       inside += part;
@@ -71,14 +68,8 @@ class Mapper {
       for (std::size_t rule = 0; rule < rules; ++rule) {
         if (!setup_.settings.species[rule].holds(columns_[column_first_rule + rule][i])) continue;
         auto& chosen = slot_of({of, static_cast<int>(rule)});
-        ++chosen.particles;
-        chosen.volume += volume;
-        chosen.moment += volume * (z[i] - floor);
-        if (density != nullptr) {
-          const double mass = by_mass ? density[i] : density[i] * volume;
-          chosen.mass += mass;
-          chosen.mass_moment += mass * (z[i] - floor);
-        }
+        ++chosen.solids.particles;
+        chosen.solids.add(volume, mass, z[i] - floor);
         share(kernel, {x[i], y[i], z[i]}, r, u, w, chosen.fields.data());
       }
     }
@@ -87,8 +78,8 @@ class Mapper {
       for (std::size_t s = 0; s < out_.used; ++s) {
         auto& slot = out_.slots[s];
         const double of_type = density_of(slot.key.type);
-        slot.mass = of_type * slot.volume;
-        slot.mass_moment = of_type * slot.moment;
+        slot.solids.mass = of_type * slot.solids.volume;
+        slot.solids.mass_moment = of_type * slot.solids.moment;
       }
     out_.volume += total;
     out_.volume_inside += inside;
@@ -117,21 +108,14 @@ class Mapper {
 
  private:
   /// Sums over the particles of one type, until another type comes.
-  struct Sums {
+  struct Run {
     int type = std::numeric_limits<int>::min();
     double* fields = nullptr;
-    std::int64_t particles = 0;
-    double volume = 0, moment = 0, mass = 0, mass_moment = 0;
+    SolidsSum solids;
   };
 
-  void flush(const Sums& sums) {
-    if (sums.particles == 0) return;
-    auto& slot = slot_of({sums.type, -1});
-    slot.particles += sums.particles;
-    slot.volume += sums.volume;
-    slot.moment += sums.moment;
-    slot.mass += sums.mass;
-    slot.mass_moment += sums.mass_moment;
+  void flush(const Run& run) {
+    if (run.solids.particles > 0) slot_of({run.type, -1}).solids += run.solids;
   }
 
   double radius_of(int type) const {
@@ -189,12 +173,7 @@ class Mapper {
   }
 
   void add_temperature(double t, SlotProduct& slot) {
-    const double shifted = t - out_.temperature_zero;
-    slot.coldest = slot.with_temperature == 0 ? t : std::min(slot.coldest, t);
-    slot.hottest = slot.with_temperature == 0 ? t : std::max(slot.hottest, t);
-    ++slot.with_temperature;
-    slot.shifted_sum += shifted;
-    slot.shifted_squares += shifted * shifted;
+    slot.temperature.add(t, out_.temperature_zero);
     if (!setup_.settings.temperature) return;
     const auto [from, to] = *setup_.settings.temperature;
     const int bins = setup_.settings.temperature_bins;
@@ -219,7 +198,8 @@ std::vector<double> relative_densities(const SnapshotProduct& product) {
   std::vector<double> relative(product.used, 1);
   for (std::size_t s = 0; s < product.used; ++s) {
     const auto &slot = product.slots[s], &first = product.slots[0];
-    const double ratio = slot.mass / slot.volume / (first.mass / first.volume);
+    const double ratio =
+        slot.solids.mass / slot.solids.volume / (first.solids.mass / first.solids.volume);
     if (std::isfinite(ratio)) relative[s] = ratio;
   }
   return relative;

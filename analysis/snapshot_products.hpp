@@ -2,6 +2,7 @@
 // What one snapshot gives: computed independently of all others, so snapshots go in parallel.
 #pragma once
 
+#include <algorithm>
 #include <exception>
 #include <vector>
 
@@ -18,19 +19,62 @@ struct SlotKey {
   bool operator==(const SlotKey&) const = default;
 };
 
-/// Sums over the particles of one slot in one snapshot.
+/// Sums over solids, wherever they are: in the domain or beside it.
+struct SolidsSum {
+  std::int64_t particles = 0;  ///< those without a size included
+  double volume = 0;           ///< [m3]
+  double moment = 0;           ///< sum of volume x height above the domain's floor [m4]
+  double mass = 0;             ///< [kg]; NaN where no density is known
+  double mass_moment = 0;      ///< sum of mass x height above the floor [kg m]
+
+  void add(double of_volume, double of_mass, double height) {
+    volume += of_volume;
+    moment += of_volume * height;
+    mass += of_mass;
+    mass_moment += of_mass * height;
+  }
+  SolidsSum& operator+=(const SolidsSum& other) {
+    particles += other.particles;
+    volume += other.volume;
+    moment += other.moment;
+    mass += other.mass;
+    mass_moment += other.mass_moment;
+    return *this;
+  }
+};
+
+/// Sums over temperatures less T0, that of the snapshot's first particle, so that the spread does
+/// not drown in the squares of absolute temperatures.
+struct TemperatureSum {
+  std::int64_t particles = 0;
+  double sum = 0, squares = 0;      ///< of T - T0 [K], [K2]
+  double coldest = 0, hottest = 0;  ///< [K]
+
+  void add(double temperature, double zero) {
+    coldest = particles == 0 ? temperature : std::min(coldest, temperature);
+    hottest = particles == 0 ? temperature : std::max(hottest, temperature);
+    ++particles;
+    sum += temperature - zero;
+    squares += (temperature - zero) * (temperature - zero);
+  }
+  TemperatureSum& operator+=(const TemperatureSum& other) {
+    if (other.particles == 0) return *this;
+    coldest = particles == 0 ? other.coldest : std::min(coldest, other.coldest);
+    hottest = particles == 0 ? other.hottest : std::max(hottest, other.hottest);
+    particles += other.particles;
+    sum += other.sum;
+    squares += other.squares;
+    return *this;
+  }
+};
+
+/// What the particles of one slot give in one snapshot.
 struct SlotProduct {
   SlotKey key;
   std::vector<double> fields;    ///< [cell][3]: phi, phi v_lateral, phi v_up
   std::vector<double> profiles;  ///< [layer][2], then [height][lateral cell][2]: phi, phi v_up
-  std::int64_t particles = 0;
-  double volume = 0;       ///< of every particle of the dump [m3]
-  double moment = 0;       ///< sum of volume x height above the domain's floor [m4]
-  double mass = 0;         ///< [kg]; NaN where no density is known
-  double mass_moment = 0;  ///< sum of mass x height above the floor [kg m]
-  std::int64_t with_temperature = 0;
-  double shifted_sum = 0, shifted_squares = 0;  ///< of T - T0, T0 of the snapshot's first particle
-  double coldest = 0, hottest = 0;
+  SolidsSum solids;
+  TemperatureSum temperature;
   std::vector<double> histogram;  ///< particles a bin, inside the PDF's range
 };
 

@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The last step of the analysis of a run: from sums to means with their errors.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
+
+#include "analysis/run_sums.hpp"
+#include "analysis/statistics.hpp"
+
+namespace bedscope::analysis {
+namespace {
+
+constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
+
+std::vector<RunSums::Species> RunSums::species() const {
+  std::vector<Species> found{{"all", {}}};
+  std::set<int> types;
+  for (std::size_t s = 0; s < slots_.size(); ++s) {
+    if (slots_[s].rule >= 0) continue;
+    found[0].slots.push_back(s);
+    if (slots_[s].type != 0) types.insert(slots_[s].type);
+  }
+  const auto in_order = [&](std::vector<std::size_t>& slots) {
+    // By type, so that sums do not depend on which type came first in a dump.
+    std::sort(slots.begin(), slots.end(),
+              [&](std::size_t a, std::size_t b) { return slots_[a].type < slots_[b].type; });
+  };
+  in_order(found[0].slots);
+  for (const int type : types)
+    for (std::size_t s = 0; s < slots_.size(); ++s)
+      if (slots_[s] == SlotKey{type, -1}) found.push_back({std::to_string(type), {s}});
+  for (std::size_t rule = 0; rule < setup_->settings.species.size(); ++rule) {
+    Species chosen{setup_->settings.species[rule].name, {}};
+    for (std::size_t s = 0; s < slots_.size(); ++s)
+      if (slots_[s].rule == static_cast<int>(rule)) chosen.slots.push_back(s);
+    in_order(chosen.slots);
+    found.push_back(std::move(chosen));
+  }
+  return found;
+}
+
+void RunSums::inventory_of(const Species& species, RunResult& result) const {
+  const auto& grid = setup_->grid;
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    const auto& sample = samples_[i];
+    InventorySample row;
+    row.time = setup_->times[i];
+    row.type = species.name;
+    SolidsSum solids;
+    TemperatureSum heat;
+    for (const std::size_t s : species.slots) {
+      if (s >= sample.slots.size()) continue;
+      const auto& slot = sample.slots[s].solids;
+      if (slot.volume > 0)  // a type without volume would bring the mass 0 x nan
+        solids += slot;
+      else
+        solids.particles += slot.particles;
+      heat += sample.slots[s].temperature;
+    }
+    row.particles = solids.particles;
+    row.solids_mass = density_known() ? solids.mass : undefined;
+    row.holdup = solids.volume / grid.volume();
+    // The centre of mass; of volume where no density is known (the same for one density).
+    const bool by_mass = solids.mass > 0 && std::isfinite(solids.mass);
+    row.mean_height = solids.volume > 0 ? grid.min[up] + (by_mass ? solids.mass_moment / solids.mass
+                                                                  : solids.moment / solids.volume)
+                                        : undefined;
+    result.inventory.push_back(row);
+    if (!setup_->has_temperature) continue;
+    TemperatureSample temperature{row.time, row.type, undefined, undefined, undefined, undefined};
+    if (heat.particles > 0) {
+      const double mean = heat.sum / static_cast<double>(heat.particles);
+      const double square = heat.squares / static_cast<double>(heat.particles);
+      temperature.mean = sample.temperature_zero + mean;
+      temperature.std = std::sqrt(std::max(0., square - mean * mean));
+      temperature.min = heat.coldest;
+      temperature.max = heat.hottest;
+    }
+    result.temperature.push_back(temperature);
+  }
+}
+
+void RunSums::profiles_of(const Species& species, const Window& window, SpeciesResult& result,
+                          std::vector<std::string>& doubts) const {
+  const auto& grid = setup_->grid;
+  const auto nx = static_cast<std::size_t>(grid.cells[lateral]);
+  const auto nz = static_cast<std::size_t>(grid.cells[up]);
+  const auto heights = setup_->heights.size();
+
+  // One sample a leaf: its mean over the time that it stands for.
+  std::vector<const WeightedSum*> leaves;
+  std::vector<double> weights;
+  for (const auto& [number, sum] : profiles_.leaves()) {
+    if (number * profiles_.size() < window.first && setup_->settings.average == std::nullopt)
+      continue;
+    if (sum.weight <= 0) continue;
+    leaves.push_back(&sum);
+    weights.push_back(sum.weight);
+  }
+  const auto density = densities();
+  const std::size_t n = leaves.size();
+  std::vector<double> holdup(n), moved(n), flux(n);
+  int few = 0, disagree = 0, points = 0;
+  const auto estimate = [&](std::size_t at, Profile& profile) {
+    for (std::size_t leaf = 0; leaf < n; ++leaf) {
+      holdup[leaf] = moved[leaf] = flux[leaf] = 0;
+      for (const std::size_t s : species.slots) {
+        if (s >= leaves[leaf]->slots.size() || leaves[leaf]->slots[s].empty()) continue;
+        const double* const q = leaves[leaf]->slots[s].data() + at;
+        const double per_weight = 1 / weights[leaf];
+        holdup[leaf] += q[0] * per_weight;
+        moved[leaf] += q[1] * per_weight;
+        if (q[0] != 0) flux[leaf] += density[s] * q[1] * per_weight;
+      }
+    }
+    const auto mean = estimate_mean(holdup, weights);
+    profile.holdup.push_back(mean);
+    ++points;
+    few += mean.few_samples;
+    disagree += mean.disagree;
+    const bool moves = setup_->has_velocity;
+    profile.velocity_z.push_back(moves ? estimate_ratio(moved, holdup, weights) : Estimate{});
+    const bool finite =
+        std::all_of(flux.begin(), flux.end(), [](double g) { return std::isfinite(g); });
+    profile.mass_flux_z.push_back(moves && finite && density_known()
+                                      ? static_cast<Estimate>(estimate_mean(flux, weights))
+                                      : Estimate{});
+  };
+  for (std::size_t k = 0; k < nz; ++k) {
+    result.axial.coordinate.push_back(grid.centre(up, static_cast<int>(k)));
+    estimate(2 * k, result.axial);
+  }
+  for (std::size_t h = 0; h < heights; ++h) {
+    Profile profile;
+    for (std::size_t i = 0; i < nx; ++i) {
+      profile.coordinate.push_back(grid.centre(lateral, static_cast<int>(i)));
+      estimate(2 * nz + 2 * (nx * h + i), profile);
+    }
+    result.lateral.push_back(std::move(profile));
+  }
+  if (species.name != "all") return;
+  if (few > 0)
+    doubts.push_back(fmt::format(
+        "profiles: at {} of {} points the window holds too few independent samples for the "
+        "interval to be trusted",
+        few, points));
+  if (disagree > 0)
+    doubts.push_back(fmt::format(
+        "profiles: at {} of {} points batch means and autocorrelation time disagree on the error",
+        disagree, points));
+}
+
+void RunSums::fields_of(const Species& species, const WeightedSum& sum,
+                        SpeciesResult& result) const {
+  const auto cells = setup_->grid.size();
+  auto& fields = result.fields;
+  fields.holdup.assign(cells, 0);
+  std::vector<double> moved_x(cells, 0), moved_z(cells, 0);
+  fields.mass_flux_x.assign(cells, 0);
+  fields.mass_flux_z.assign(cells, 0);
+  const auto slot_densities = densities();
+  for (const std::size_t s : species.slots) {
+    if (s >= sum.slots.size() || sum.slots[s].empty()) continue;
+    const double density = slot_densities[s];
+    const double* q = sum.slots[s].data();
+    for (std::size_t c = 0; c < cells; ++c, q += 3) {
+      if (q[0] == 0) continue;
+      fields.holdup[c] += q[0] / sum.weight;
+      moved_x[c] += q[1] / sum.weight;
+      moved_z[c] += q[2] / sum.weight;
+      fields.mass_flux_x[c] += density * (q[1] / sum.weight);
+      fields.mass_flux_z[c] += density * (q[2] / sum.weight);
+    }
+  }
+  fields.velocity_x.assign(cells, undefined);
+  fields.velocity_z.assign(cells, undefined);
+  for (std::size_t c = 0; c < cells && setup_->has_velocity; ++c) {
+    if (fields.holdup[c] <= 0) continue;
+    fields.velocity_x[c] = moved_x[c] / fields.holdup[c];
+    fields.velocity_z[c] = moved_z[c] / fields.holdup[c];
+  }
+  if (!density_known() || !setup_->has_velocity) {
+    fields.mass_flux_x.assign(cells, undefined);
+    fields.mass_flux_z.assign(cells, undefined);
+  }
+}
+
+void RunSums::pdf_of(const Species& species, const Window& window, SpeciesResult& result) const {
+  if (!setup_->has_temperature || !setup_->settings.temperature) return;
+  const auto bins = static_cast<std::size_t>(setup_->settings.temperature_bins);
+  const auto sum =
+      histograms_.total(setup_->settings.average ? 0 : window.first / histograms_.size());
+  std::vector<double> density(bins, 0);
+  double all = 0;  // particles with a temperature, inside the range and outside
+  for (std::size_t i = window.first; i < window.first + window.snapshots; ++i)
+    for (const std::size_t s : species.slots)
+      if (s < samples_[i].slots.size())
+        all += samples_[i].weight * static_cast<double>(samples_[i].slots[s].temperature.particles);
+  for (const std::size_t s : species.slots)
+    if (s < sum.slots.size() && !sum.slots[s].empty())
+      for (std::size_t b = 0; b < bins; ++b) density[b] += sum.slots[s][b];
+  const double inside = std::accumulate(density.begin(), density.end(), 0.);
+  if (species.name == "all" && all > 0 && inside < all * (1 - 1e-12))
+    result.temperature_outside = 1 - inside / all;
+  for (auto& value : density) value *= static_cast<double>(bins) / all;
+  result.temperature_pdf = std::move(density);
+}
+
+void RunSums::clusters_of(const Window& window, RunResult& result) const {
+  std::map<int, int> numbers;  // tracks are counted from 1 inside the window
+  for (const auto& cluster : clusters_) {
+    if (cluster.snapshot < window.first) continue;
+    numbers.try_emplace(cluster.track, static_cast<int>(numbers.size()) + 1);
+  }
+  for (const auto& cluster : clusters_) {
+    if (cluster.snapshot < window.first) continue;
+    auto kept = cluster;
+    kept.track = numbers.at(cluster.track);
+    kept.parents.clear();
+    for (const int parent : cluster.parents)
+      if (const auto found = numbers.find(parent); found != numbers.end())
+        kept.parents.push_back(found->second);
+    result.clusters.push_back(std::move(kept));
+  }
+}
+
+void RunSums::means_of(const Window& window, RunResult& result) const {
+  std::vector<double> weights, holdup, mass, clusters, bed;
+  double volume = 0, outside = 0;
+  const auto& grid = setup_->grid;
+  const double area = grid.length(lateral) * grid.length(depth);
+  for (std::size_t i = window.first; i < window.first + window.snapshots; ++i) {
+    const auto& sample = samples_[i];
+    weights.push_back(sample.weight);
+    holdup.push_back(sample.volume_inside / grid.volume());
+    clusters.push_back(occurrence_[i].clusters);
+    volume += sample.weight * sample.volume;
+    outside += sample.weight * (sample.volume - sample.volume_inside);
+    double kilograms = 0, moment = 0;
+    for (std::size_t s = 0; s < sample.slots.size(); ++s) {
+      if (slots_[s].rule >= 0 || sample.slots[s].solids.volume <= 0) continue;
+      kilograms += sample.slots[s].solids.mass;
+      moment += sample.slots[s].solids.moment;
+    }
+    mass.push_back(kilograms);
+    // A level bed of height H has its centre at H/2: H = 2 x mean height, whatever the surface
+    // does.
+    bed.push_back(moment > 0 ? 1 - sample.volume / (area * 2 * moment / sample.volume) : 1);
+  }
+  const auto mean = estimate_mean(holdup, weights);
+  result.mean_holdup = mean;
+  result.independent_samples = mean.independent_samples;
+  result.mean_occurrence = estimate_mean(clusters, weights);
+  result.bed_voidage = estimate_mean(bed, weights);
+  if (density_known() &&
+      std::all_of(mass.begin(), mass.end(), [](double m) { return std::isfinite(m); }))
+    result.inventory_mass = estimate_mean(mass, weights);
+  result.outside_fraction = volume > 0 ? std::max(0., outside / volume) : 0;
+  if (mean.few_samples)
+    result.problems.push_back(
+        fmt::format("mean holdup: the window holds {:.3g} independent samples, too few for its "
+                    "interval to be trusted",
+                    mean.independent_samples));
+  if (mean.disagree)
+    result.problems.emplace_back(
+        "mean holdup: batch means and autocorrelation time disagree on the error");
+  if (result.outside_fraction > 1e-3)
+    result.problems.push_back(fmt::format("{:.3g} % of the solids volume lies outside the domain",
+                                          100 * result.outside_fraction));
+}
+
+RunResult RunSums::finish(const readers::Series& series, const Window& window) const {
+  RunResult result;
+  const auto& setup = *setup_;
+  result.grid = setup.grid;
+  result.mapping = setup.settings.mapping;
+  result.domain_assumed = setup.domain_assumed;
+  result.time_known = setup.time_known;
+  result.density_known = density_known();
+  result.heights = setup.heights;
+  result.band = setup.band;
+  result.thresholds = setup.settings.clusters;
+  result.window = window;
+  result.window.from = setup.times[window.first];
+  result.window.to = setup.times[window.first + window.snapshots - 1];
+  result.problems = series.problems();
+  result.problems.insert(result.problems.end(), setup.problems.begin(), setup.problems.end());
+  for (auto& line : flaws_.describe(series)) result.problems.push_back(std::move(line));
+  if (without_temperature_ > 0)
+    result.problems.push_back(fmt::format(
+        "{} particles without a finite temperature, left out of its means", without_temperature_));
+  if (setup.settings.temperature) {
+    result.temperature_from = (*setup.settings.temperature)[0];
+    result.temperature_to = (*setup.settings.temperature)[1];
+  }
+  const std::size_t first_leaf = setup.settings.average ? 0 : window.first / fields_.size();
+  const auto sum = fields_.total(first_leaf);
+  const auto kinds = species();
+  const auto& total = kinds.front();
+  for (const auto& kind : kinds) {
+    result.types.push_back(kind.name);
+    SpeciesResult found;
+    if (!result.species.empty() && kind.slots == total.slots) {
+      found = result.species.front();  // one type only: its numbers are the total's
+    } else {
+      profiles_of(kind, window, found, result.problems);
+      fields_of(kind, sum, found);
+      pdf_of(kind, window, found);
+    }
+    found.type = kind.name;
+    inventory_of(kind, result);
+    if (kind.name == "all" && found.temperature_outside > 0)
+      result.problems.push_back(
+          fmt::format("temperature PDF: {:.3g} % of the particles lie outside its range",
+                      100 * found.temperature_outside));
+    result.species.push_back(std::move(found));
+  }
+  result.occurrence = occurrence_;
+  clusters_of(window, result);
+  means_of(window, result);
+  if (window.automatic && !window.steady)
+    result.problems.push_back(
+        samples_.size() < 20
+            ? fmt::format("{} snapshots are too few to tell whether the run is steady",
+                          samples_.size())
+            : fmt::format("not steady: no steady part begins in the first half of the run, and the "
+                          "average starts at {:.6g} s",
+                          result.window.from));
+  result.bytes_read = bytes_read_;
+  return result;
+}
+
+}  // namespace bedscope::analysis
