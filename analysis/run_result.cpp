@@ -231,7 +231,7 @@ void RunSums::clusters_of(const Window& window, RunResult& result) const {
 }
 
 void RunSums::means_of(const Window& window, RunResult& result) const {
-  std::vector<double> weights, holdup, mass, clusters, bed;
+  std::vector<double> weights, holdup, mass, clusters, bed, volumes;
   double volume = 0, outside = 0;
   const auto& grid = setup_->grid;
   const double area = grid.length(lateral) * grid.length(depth);
@@ -240,6 +240,7 @@ void RunSums::means_of(const Window& window, RunResult& result) const {
     weights.push_back(sample.weight);
     holdup.push_back(sample.volume_inside / grid.volume());
     clusters.push_back(occurrence_[i].clusters);
+    volumes.push_back(sample.volume);
     volume += sample.weight * sample.volume;
     outside += sample.weight * (sample.volume - sample.volume_inside);
     double kilograms = 0, moment = 0;
@@ -262,6 +263,11 @@ void RunSums::means_of(const Window& window, RunResult& result) const {
       std::all_of(mass.begin(), mass.end(), [](double m) { return std::isfinite(m); }))
     result.inventory_mass = estimate_mean(mass, weights);
   result.outside_fraction = volume > 0 ? std::max(0., outside / volume) : 0;
+  const auto [least, most] = std::minmax_element(volumes.begin(), volumes.end());
+  if (volumes.size() > 1 && *most - *least <= 1e-12 * *most)
+    result.problems.emplace_back(
+        "constant inventory: the interval of the mean holdup tells nothing of how well the rest is "
+        "converged");
   if (mean.few_samples)
     result.problems.push_back(
         fmt::format("mean holdup: the window holds {:.3g} independent samples, too few for its "
