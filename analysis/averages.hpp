@@ -33,52 +33,103 @@ struct WeightedSum {
   }
 };
 
-/// Sums of a series in leaves of 2^k consecutive snapshots. When there are more than `limit`, pairs
-/// of neighbours merge and k grows: memory stays bounded, and since leaves are aligned to the index
-/// in the series, the total is the same tree whatever the limit.
+/// Sums of a series in leaves of 2^k consecutive snapshots, aligned to the index in the series.
+/// When there are more than `limit`, pairs of neighbours merge and k grows, so that memory stays
+/// bounded. Whatever was merged early is what the tree over all indices would merge: the total has
+/// the same bits for any limit, and for a series that was looked at while it grew.
 class Leaves {
  public:
-  /// `first_power`: the smallest leaf holds 2^first_power snapshots, added one after the other.
-  Leaves(int first_power, std::size_t limit) : power_(first_power), limit_(limit) {}
+  /// `first_power`: snapshots of one leaf of 2^first_power are added one after the other.
+  Leaves(int first_power, std::size_t limit)
+      : first_power_(first_power), power_(first_power), limit_(limit) {}
 
   /// The sum to add snapshot `index` to; indices must not decrease.
   WeightedSum& at(std::size_t index) {
-    while (!leaves_.contains(index >> power_) && leaves_.size() >= limit_) halve();
-    return leaves_[index >> power_];
+    const std::size_t number = index >> first_power_;
+    if (number != open_) {
+      close();
+      open_ = number;
+    }
+    return sum_;
   }
 
-  /// By leaf number; leaf n holds the snapshots n * size() ... (n + 1) * size() - 1 that were
-  /// added.
-  const std::map<std::size_t, WeightedSum>& leaves() const { return leaves_; }
+  /// Snapshots in a leaf.
   std::size_t size() const { return std::size_t{1} << power_; }
 
-  /// Merged over the leaves from `first_leaf` on, pairwise up the tree.
+  /// By number; leaf n holds the snapshots n * size() ... (n + 1) * size() - 1 that were added.
+  std::map<std::size_t, WeightedSum> leaves() const { return climb(0, power_); }
+
+  /// Merged over the leaves from `first_leaf` on.
   WeightedSum total(std::size_t first_leaf = 0) const {
-    std::map<std::size_t, WeightedSum> level(leaves_.lower_bound(first_leaf), leaves_.end());
-    while (level.size() > 1) level = pairs(level);
-    return level.empty() ? WeightedSum{} : std::move(level.begin()->second);
+    constexpr int top = 62;  // above any index
+    auto root = climb(first_leaf << power_, top);
+    return root.empty() ? WeightedSum{} : std::move(root.begin()->second);
   }
 
  private:
-  static std::map<std::size_t, WeightedSum> pairs(std::map<std::size_t, WeightedSum>& level) {
-    std::map<std::size_t, WeightedSum> merged;
-    for (auto& [number, sum] : level) {  // in ascending order: left before right
-      const auto [place, is_new] = merged.try_emplace(number / 2);
-      if (is_new)
-        place->second = std::move(sum);
-      else
-        place->second.merge(sum);
+  static constexpr std::size_t none = ~std::size_t{0};
+  /// The sum over the snapshots number * 2^power ... (number + 1) * 2^power - 1.
+  struct Node {
+    int power;
+    std::size_t number;
+    WeightedSum sum;
+  };
+
+  /// The open leaf is whole: it becomes a node, and merges with its sibling as far as leaves go.
+  void close() {
+    if (open_ == none) return;
+    nodes_.push_back({first_power_, open_, std::move(sum_)});
+    sum_ = {};
+    merge_siblings();
+    while (nodes_.size() > limit_) {
+      ++power_;
+      merge_siblings();
     }
-    return merged;
-  }
-  void halve() {
-    leaves_ = pairs(leaves_);
-    ++power_;
   }
 
-  int power_;
+  void merge_siblings() {
+    std::vector<Node> merged;
+    for (auto& node : nodes_) {
+      merged.push_back(std::move(node));
+      while (merged.size() > 1) {
+        auto &left = merged[merged.size() - 2], &right = merged.back();
+        if (left.power != right.power || left.power >= power_ || left.number % 2 != 0 ||
+            left.number + 1 != right.number)
+          break;
+        left.sum.merge(right.sum);
+        ++left.power;
+        left.number /= 2;
+        merged.pop_back();
+      }
+    }
+    nodes_ = std::move(merged);
+  }
+
+  /// All that begins at snapshot `first` or later, merged pairwise up the tree to nodes of 2^power.
+  std::map<std::size_t, WeightedSum> climb(std::size_t first, int power) const {
+    std::map<std::size_t, WeightedSum> level;
+    for (int p = first_power_;; ++p) {
+      for (const auto& node : nodes_)
+        if (node.power == p && node.number << p >= first) level[node.number] = node.sum;
+      if (p == first_power_ && open_ != none && open_ << p >= first) level[open_] = sum_;
+      if (p == power) return level;
+      std::map<std::size_t, WeightedSum> above;
+      for (auto& [number, sum] : level) {  // in ascending order: left before right
+        const auto [place, is_new] = above.try_emplace(number / 2);
+        if (is_new)
+          place->second = std::move(sum);
+        else
+          place->second.merge(sum);
+      }
+      level = std::move(above);
+    }
+  }
+
+  int first_power_, power_;
   std::size_t limit_;
-  std::map<std::size_t, WeightedSum> leaves_;
+  std::vector<Node> nodes_;  // in the order of the series
+  std::size_t open_ = none;
+  WeightedSum sum_;  // of the open leaf
 };
 
 }  // namespace bedscope::analysis

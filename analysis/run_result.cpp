@@ -94,9 +94,10 @@ void RunSums::profiles_of(const Species& species, const Window& window, SpeciesR
   const auto heights = setup_->heights.size();
 
   // One sample a leaf: its mean over the time that it stands for.
+  const auto kept = profiles_.leaves();
   std::vector<const WeightedSum*> leaves;
   std::vector<double> weights;
-  for (const auto& [number, sum] : profiles_.leaves()) {
+  for (const auto& [number, sum] : kept) {
     if (number * profiles_.size() < window.first && setup_->settings.average == std::nullopt)
       continue;
     if (sum.weight <= 0) continue;
