@@ -62,10 +62,12 @@ double kernel_integral(int n, const F& w, double rate, double xi, double tau) {
   };
   const double low = std::max(0.0, root - 7), high = std::min(end, root + 7);
   double width = rate * end > 1 && high == end ? std::min(0.5, 1 / (rate * end)) : 0.5;
-  double sum = 0;
-  for (double to = high, from = 0; to > low; to = from, width = std::min(2 * width, 0.5)) {
-    from = std::max(low, to - width);
+  double sum = 0, to = high;
+  while (to > low) {
+    const double from = std::max(low, to - width);
     sum += integrate_panel(integrand, from, to);
+    to = from;
+    width = std::min(2 * width, 0.5);
   }
   return sum;
 }

@@ -15,7 +15,7 @@ namespace {
 
 TEST(Beetstra, HasTheValuesOfAnotherImplementation) {
   struct Row {
-    double voidage, Re, F;
+    double voidage, reynolds, force;
   };
   // Computed from MFiX' DRAG_BVK (model/drag_gs.f) and CFDEMcoupling-PFM's BeetstraDrag.C, which
   // agree; to the eight digits of that table.
@@ -95,8 +95,9 @@ TEST(DragLaws, GiveForcesThatGrowWithReynoldsNumberAndHoldup) {
   // The force, Re F: F itself falls by 1 % between Re = 0.1 and 0.9 in Di Felice's law at eps =
   // 0.4.
   for (const NamedDragLaw& entry : drag_laws())
-    for (double eps = entry.voidage_low; eps < entry.voidage_high; eps += 0.05)
-      for (double Re = 0.1; Re < 1000; Re *= 3) {
+    for (int step = 0; entry.voidage_low + 0.05 * step < entry.voidage_high; ++step)
+      for (const double Re : {0.1, 0.3, 0.9, 2.7, 8.1, 24.0, 73.0, 220.0, 660.0}) {
+        const double eps = entry.voidage_low + 0.05 * step;
         EXPECT_GT(3 * entry.law(eps, 3 * Re), entry.law(eps, Re)) << entry.name;
         if (entry.name == "gidaspow" && eps < 0.8 && eps + 0.01 > 0.8) continue;  // its step
         EXPECT_GT(entry.law(eps, Re), entry.law(std::min(eps + 0.01, 1.0), Re)) << entry.name;
@@ -158,7 +159,8 @@ TEST(CarryingVelocity, FallsWithHoldup) {
   const Sphere sphere{0.85e-3, 2500};
   for (const NamedDragLaw& entry : drag_laws()) {
     double before = 0;
-    for (double eps = entry.voidage_low; eps <= entry.voidage_high; eps += 0.1) {
+    for (const double eps : {0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0}) {
+      if (eps < entry.voidage_low || eps > entry.voidage_high) continue;
       if (entry.name == "gidaspow" && eps > 0.79 && eps < 0.91) continue;  // its step
       const double u = carrying_velocity(sphere, gas, 9.81, eps, entry.law);
       EXPECT_GT(u, before) << entry.name << " " << eps;

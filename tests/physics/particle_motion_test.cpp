@@ -79,7 +79,7 @@ TEST(TerminalVelocity, OfWhatFloatsIsRefused) {
 
 TEST(DragCoefficient, FollowsTheStandardDragCurve) {
   struct Row {  // rigid spheres: Pruppacher and Klett, Microphysics of Clouds and Precipitation,
-    double Re, Cd;  // Table 10.1
+    double reynolds, coefficient;  // Table 10.1
   };
   for (const auto& [Re, Cd] : {Row{10, 4.29}, {30, 2.11}, {57, 1.51}, {100, 1.10}, {300, 0.63}})
     EXPECT_NEAR(drag_coefficient_schiller_naumann(Re) / Cd, 1, 0.09) << Re;  // 8.6 % apart at 300

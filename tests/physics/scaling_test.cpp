@@ -40,25 +40,25 @@ double group(const ScaledScene& scene, std::string_view name) {
 
 TEST(ScalingRule, GivesTable41) {
   struct Column {
-    double K, d, N, mu, g, k_n, k_t_pp, k_t_pw;
+    double factor, d, number, mu, g, k_n, k_t_pp, k_t_pw;
   };
   const Column columns[] = {{0.8, 0.68e-3, 97656, 1.44e-5, 12.26, 1280, 411.2, 410.36},
                             {1, 0.85e-3, 50000, 1.8e-5, 9.81, 1600, 514, 512.95},
                             {1.25, 1.06e-3, 25600, 2.25e-5, 7.848, 2000, 642.5, 641.2},
                             {2, 1.70e-3, 6250, 3.6e-5, 4.905, 3200, 1028, 1025.9}};
   for (const Column& printed : columns) {
-    const auto factors = scaling_factors(printed.K, a);
+    const auto factors = scaling_factors(printed.factor, a);
     const auto scaled = scale(riser, factors);
     EXPECT_NEAR(scaled.particle_diameter, printed.d, 5e-6);  // two digits of mm: 1.0625 as 1.06
-    EXPECT_EQ(std::floor(scaled.particle_number + 1e-6), printed.N);  // 97656.25 cut
-    EXPECT_NEAR(scaled.gas_viscosity / printed.mu, 1, 1e-12);         // exact
-    EXPECT_NEAR(scaled.gravity, printed.g, 5e-3);                     // 12.2625 as 12.26
-    EXPECT_NEAR(scaled.normal_stiffness / printed.k_n, 1, 1e-12);     // exact
-    EXPECT_NEAR(514 * factors.stiffness, printed.k_t_pp, 1e-9);       // exact
-    EXPECT_NEAR(512.95 * factors.stiffness, printed.k_t_pw, 0.05);    // one digit
+    EXPECT_EQ(std::floor(scaled.particle_number + 1e-6), printed.number);  // 97656.25 cut
+    EXPECT_NEAR(scaled.gas_viscosity / printed.mu, 1, 1e-12);              // exact
+    EXPECT_NEAR(scaled.gravity, printed.g, 5e-3);                          // 12.2625 as 12.26
+    EXPECT_NEAR(scaled.normal_stiffness / printed.k_n, 1, 1e-12);          // exact
+    EXPECT_NEAR(514 * factors.stiffness, printed.k_t_pp, 1e-9);            // exact
+    EXPECT_NEAR(512.95 * factors.stiffness, printed.k_t_pw, 0.05);         // one digit
     // The rule itself gives 512.89: see contact_test.
     EXPECT_NEAR(1600 * tangential_stiffness_ratio(0.86, 0.33) * factors.stiffness, printed.k_t_pw,
-                0.06 * printed.K + 0.05);
+                0.06 * printed.factor + 0.05);
     EXPECT_EQ(scaled.particle_density, 2500);
     EXPECT_EQ(scaled.gas_density, 1.2);
     EXPECT_EQ(scaled.gas_velocity, 5.55);
@@ -67,24 +67,27 @@ TEST(ScalingRule, GivesTable41) {
 }
 
 struct Mapping {
-  double K;
+  double factor;
   MappingCondition condition;
-  double dV_over_V, D_over_d, N, cells;
+  double cell_over_particle, depth_over_diameter, number, cells;
   double cells_by_rule;  ///< where the printed one differs: grids have whole cells
 };
 
 /// What both tables must do: number and depth by the rule, cells by the rule or as remarked, and a
 /// dV/V_p that is the volume over the printed cells.
 void expect_table(const ScaledScene& scene, const Mapping& printed, double digit) {
-  const auto scaled = scale(scene, scaling_factors(printed.K, printed.condition));
+  const auto scaled = scale(scene, scaling_factors(printed.factor, printed.condition));
   const std::string where =
-      std::to_string(printed.K) + " " + "abcd"[static_cast<int>(printed.condition)];
-  EXPECT_NEAR(scaled.particle_number, printed.N, 1) << where;  // rounded or cut
+      std::to_string(printed.factor) + " " + "abcd"[static_cast<int>(printed.condition)];
+  EXPECT_NEAR(scaled.particle_number, printed.number, 1) << where;  // rounded or cut
   EXPECT_NEAR(cells(scaled), printed.cells_by_rule, 0.5) << where;
-  EXPECT_NEAR(group(scaled, "D/d"), printed.D_over_d, digit) << where;
+  const auto factors = scaling_factors(printed.factor, printed.condition);
+  EXPECT_NEAR(cells(scaled) / cells(scene), factors.cell_number, 1e-9) << where;
+  EXPECT_NEAR(group(scaled, "D/d"), printed.depth_over_diameter, digit) << where;
   const double volume = scaled.width * scaled.depth * scaled.height;
   const double by_print = volume / printed.cells / sphere_volume(scaled.particle_diameter);
-  EXPECT_NEAR(by_print / printed.dV_over_V, 1, 0.013) << where;  // two digits: 3.644 as 3.6
+  EXPECT_NEAR(by_print / printed.cell_over_particle, 1, 0.013)
+      << where;  // two digits: 3.644 as 3.6
 }
 
 TEST(ScalingRule, GivesTable42) {
@@ -105,18 +108,18 @@ TEST(ScalingRule, GivesTable42) {
 
 TEST(ScalingRule, GivesTable51) {
   struct Column {
-    double K, small, large, N, mu, g, k_n, k_t;
+    double factor, small, large, number, mu, g, k_n, k_t;
   };
   const Column columns[] = {{1, 125e-6, 185e-6, 614465, 1.8e-5, 9.81, 1600, 514.08},
                             {1.5, 187.5e-6, 277.5e-6, 182064, 2.7e-5, 6.54, 2400, 771.13},
                             {2, 250e-6, 370e-6, 76808, 3.6e-5, 4.905, 3200, 1028.17},
                             {3, 375e-6, 555e-6, 22758, 5.4e-5, 3.27, 4800, 1542.25}};
   for (const Column& printed : columns) {
-    const auto factors = scaling_factors(printed.K, b);
+    const auto factors = scaling_factors(printed.factor, b);
     const auto scaled = scale(binary, factors);
     EXPECT_NEAR(scaled.particle_diameter / printed.small, 1, 1e-12);
     EXPECT_NEAR(185e-6 * factors.diameter / printed.large, 1, 1e-12);  // the same for each species
-    EXPECT_EQ(std::round(scaled.particle_number), printed.N);
+    EXPECT_EQ(std::round(scaled.particle_number), printed.number);
     EXPECT_NEAR(scaled.gas_viscosity / printed.mu, 1, 1e-12);
     EXPECT_NEAR(scaled.gravity / printed.g, 1, 1e-12);
     EXPECT_NEAR(scaled.normal_stiffness / printed.k_n, 1, 1e-12);
@@ -129,7 +132,7 @@ TEST(ScalingRule, GivesTable52) {
   // 64000 / 3^2 = 7111; printed are grids of whole cells. That is where dV/V_p is off by up to 18
   // %.
   struct Large {
-    double dV_over_V, D_over_d;
+    double cell_over_particle, depth_over_diameter;
   };
   const std::pair<Mapping, Large> table[] = {
       {{1, a, 587.0, 9.6, 614465, 64000, 64000}, {181.1, 6.5}},
@@ -150,8 +153,8 @@ TEST(ScalingRule, GivesTable52) {
   for (const auto& [small_row, of_large] : table) {
     expect_table(binary, small_row, 0.051);
     Mapping large_row = small_row;
-    large_row.dV_over_V = of_large.dV_over_V;
-    large_row.D_over_d = of_large.D_over_d;
+    large_row.cell_over_particle = of_large.cell_over_particle;
+    large_row.depth_over_diameter = of_large.depth_over_diameter;
     expect_table(large, large_row, 0.051);
   }
 }

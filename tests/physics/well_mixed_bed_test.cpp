@@ -22,8 +22,8 @@ double h_at(double voidage, double u) {
   return heat_transfer_coefficient(gunn_nusselt(voidage, Re, Pr), 0.0209, d);
 }
 
-struct Row {  // Table 2.5 as printed; T_p1 inactive, T_p2 active (its caption has them swapped)
-  double height, u, T_g, T_p1, T_p2, ratio, uniform_T_g, uniform_T_p;
+struct Row {  // Table 2.5 as printed: T_p1 is inactive, T_p2 active (its caption has them swapped)
+  double height, u, gas, inactive, active, ratio, uniform_gas, uniform_particle;
 };
 const Row table[] = {
     {0.04, 0.4, 346, 346, 367, -1.28, 346, 346}, {0.04, 0.5, 343, 343, 362, -1.5, 343, 343},
@@ -54,10 +54,10 @@ Differences differences(double source, const std::array<double, 3>& voidages) {
     const auto uneven = equilibrium_temperatures(bed_of(row, voidage), uneven_source);
     const double T_p1 = uneven.particle[0], T_p2 = uneven.particle[1];
     const double half_digit = row.height < 0.05 && row.u > 0.45 ? 0.05 : 0.005;  // -1.5, -1.7
-    found.gas += std::round(even.gas) != row.uniform_T_g || std::round(uneven.gas) != row.T_g;
-    found.inactive += std::round(T_p1) != row.T_p1;
-    found.active += std::round(T_p2) != row.T_p2;
-    found.uniform += std::round(even.particle[0]) != row.uniform_T_p;
+    found.gas += std::round(even.gas) != row.uniform_gas || std::round(uneven.gas) != row.gas;
+    found.inactive += std::round(T_p1) != row.inactive;
+    found.active += std::round(T_p2) != row.active;
+    found.uniform += std::round(even.particle[0]) != row.uniform_particle;
     found.ratio += std::abs((T_p1 - T_p2) / (T_p1 - 330) - row.ratio) > half_digit;
   }
   return found;
@@ -82,7 +82,8 @@ TEST(Equilibrium, PartsFromTheTableByHalfAKelvinWithTheMeanSource) {
   EXPECT_EQ(found.active, 0);
   EXPECT_EQ(found.uniform, 2);  // 362.43 printed as 363, 394.45 as 395
   for (const Row& row : table)
-    EXPECT_NEAR(equilibrium_temperatures(bed_of(row, 0.593), uniform).particle[0], row.uniform_T_p,
+    EXPECT_NEAR(equilibrium_temperatures(bed_of(row, 0.593), uniform).particle[0],
+                row.uniform_particle,
                 0.58);  // half a kelvin of rounding and those two
 }
 
