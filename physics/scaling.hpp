@@ -61,7 +61,7 @@ struct DimensionlessGroup {
 };
 
 /// The groups of a scene, in a fixed order. First those that the rule means to keep, by Mu (2022),
-/// section 4.2 (Re, Ar, Fr, stiffness, damping, densities, holdup; dV/V_p and D/d by condition),
+/// ch. 4 (Re, Ar, Fr, stiffness, damping, densities, holdup; dV/V_p and D/d by condition),
 /// then those that she does not mention: Stokes and Froude number of the riser, width over
 /// diameter, pressure drop of the bed over the gas' dynamic pressure, contact time over the
 /// riser's, overlap over diameter, cells in the smallest cluster. smallest_cluster: area in the
