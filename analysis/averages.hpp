@@ -3,6 +3,7 @@
 // looked at, or on how much of it is kept apart: a fixed binary tree over the snapshots' indices.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <map>
 #include <utility>
@@ -81,7 +82,8 @@ class Leaves {
     nodes_.push_back({first_power_, open_, std::move(sum_)});
     sum_ = {};
     merge_siblings();
-    while (nodes_.size() > limit_) {
+    const auto whole = [this](const Node& node) { return node.power == power_; };
+    while (static_cast<std::size_t>(std::count_if(nodes_.begin(), nodes_.end(), whole)) > limit_) {
       ++power_;
       merge_siblings();
     }
@@ -91,6 +93,12 @@ class Leaves {
     std::vector<Node> merged;
     for (auto& node : nodes_) {
       merged.push_back(std::move(node));
+      // Before the first one there is nothing: where it is a right-hand child its sibling is empty.
+      for (auto& first = merged.front();
+           merged.size() == 1 && first.power < power_ && first.number % 2 == 1;) {
+        ++first.power;
+        first.number /= 2;
+      }
       while (merged.size() > 1) {
         auto &left = merged[merged.size() - 2], &right = merged.back();
         if (left.power != right.power || left.power >= power_ || left.number % 2 != 0 ||
