@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One OpenFOAM file as one block, or a collated file (class decomposedBlockData) as one block a rank.
+// One OpenFOAM file as one block, or a collated file (class decomposedBlockData) as one block a
+// rank.
 #pragma once
 
 #include <cstddef>

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int deepest = 64;                    // dictionaries in dictionaries, files in files
+constexpr int deepest = 64;                     // dictionaries in dictionaries, files in files
 constexpr std::size_t longest_value = 1 << 20;  // also bounds what macros can grow to
 
 using Kind = FoamToken::Kind;
@@ -43,7 +43,8 @@ void expand_into(std::string& out, std::string_view text, const FoamDictionary& 
     } else {
       std::size_t stop = ++i;
       const bool braced = stop < text.size() && text[stop] == '{';
-      if (braced) stop = std::min(text.find('}', i), text.size());
+      if (braced)
+        stop = std::min(text.find('}', i), text.size());
       else
         while (stop < text.size() && in_macro_name(text[stop])) ++stop;
       const auto name = braced ? text.substr(i + 1, stop - i - 1) : text.substr(i, stop - i);

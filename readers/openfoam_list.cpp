@@ -113,8 +113,7 @@ void read_binary(FoamStream& stream, const FoamLayout& layout, std::uint64_t cou
         const File value = swap ? swapped(piece[i]) : piece[i];
         out[from + i] = static_cast<T>(value);
         if constexpr (std::is_integral_v<T>)
-          if (out[from + i] != value)
-            stream.fail_binary("label {} does not fit in 32 bits", value);
+          if (out[from + i] != value) stream.fail_binary("label {} does not fit in 32 bits", value);
       }
     }
     if (got < now * sizeof(File))
@@ -147,8 +146,8 @@ bool parse_value(const char*& p, const char* end, const FoamType& type, double* 
 }
 
 // A value in the slow way: after a comment, over the edge of the window, or a mistake to name.
-void parse_value_slowly(FoamStream& stream, const FoamType& type, double* into,
-                        std::uint64_t index, std::uint64_t declared) {
+void parse_value_slowly(FoamStream& stream, const FoamType& type, double* into, std::uint64_t index,
+                        std::uint64_t declared) {
   const auto expect_more = [&] {
     if (!stream.skip_blanks())
       stream.fail_cut("{} values of List<{}> declared, end of file after {}", declared, type.name,
@@ -169,8 +168,8 @@ void parse_value_slowly(FoamStream& stream, const FoamType& type, double* into,
 }
 
 // Values up to `count`, or up to the closing parenthesis where the list has no count.
-void read_ascii(FoamStream& stream, const FoamType& type, Opening opening,
-                std::vector<double>& out, NonFinite& seen) {
+void read_ascii(FoamStream& stream, const FoamType& type, Opening opening, std::vector<double>& out,
+                NonFinite& seen) {
   constexpr std::size_t step = 4096;  // values in one go: at most 300 kB of numbers
   const bool counted = opening.form == Opening::Form::parenthesis;
   const auto total = counted ? opening.count : std::numeric_limits<std::uint64_t>::max();
@@ -219,8 +218,7 @@ std::int32_t read_label(FoamStream& stream, std::string_view of) {
   if (token.at_end()) stream.fail_cut("expected a label of {}, found end of file", of);
   std::int64_t value = 0;
   bool overflow = false;
-  if (!parse_integer(token.text, value, overflow) ||
-      value != static_cast<std::int32_t>(value))
+  if (!parse_integer(token.text, value, overflow) || value != static_cast<std::int32_t>(value))
     stream.fail(token.offset, "expected a label of {}, found \"{}\"", of, printable(token.text));
   return static_cast<std::int32_t>(value);
 }
@@ -242,6 +240,20 @@ void read_ascii_labels(FoamStream& stream, std::uint64_t count, std::vector<std:
     ++k;
   }
   stream.expect(')', "the last label");
+}
+
+// Passes over numbers in an open bracket, up to the one that closes it.
+void skip_text(FoamStream& stream) {
+  for (int depth = 1; depth > 0;) {
+    if (stream.at() == stream.end() && !stream.more())
+      stream.fail_cut("expected \")\" of a list, found end of file");
+    const char* p = stream.at();
+    for (; p != stream.end() && depth > 0; ++p) {
+      depth += *p == '(' || *p == '{';
+      depth -= *p == ')' || *p == '}';
+    }
+    stream.go_to(p);
+  }
 }
 
 }  // namespace
@@ -278,8 +290,8 @@ NonFinite read_values(FoamStream& stream, const FoamLayout& layout, const FoamTy
   NonFinite seen;
   const auto opening = read_opening(stream, layout);
   if (expected && opening.form != Opening::Form::uncounted && opening.count != expected->count)
-    stream.fail(stream.offset(), "list declares {} values, {} {}", opening.count, expected->of,
-                expected->count);
+    stream.fail(stream.offset(), "list declares {} values, {} has {} {}", opening.count,
+                expected->whole, expected->count, expected->parts);
   switch (opening.form) {
     case Opening::Form::empty:
       break;
@@ -298,7 +310,9 @@ NonFinite read_values(FoamStream& stream, const FoamLayout& layout, const FoamTy
         break;
       }
       const auto count = opening.count * type.components;
-      const auto check = [&](std::size_t from) { note_non_finite(out, from, type.components, seen); };
+      const auto check = [&](std::size_t from) {
+        note_non_finite(out, from, type.components, seen);
+      };
       if (layout.scalar_bytes == 8)
         read_binary<double>(stream, layout, count, type.components, out, check);
       else
@@ -307,8 +321,8 @@ NonFinite read_values(FoamStream& stream, const FoamLayout& layout, const FoamTy
     }
   }
   if (expected && out.size() / type.components != expected->count)
-    stream.fail(stream.offset(), "list holds {} values, {} {}", out.size() / type.components,
-                expected->of, expected->count);
+    stream.fail(stream.offset(), "list holds {} values, {} has {} {}", out.size() / type.components,
+                expected->whole, expected->count, expected->parts);
   return seen;
 }
 
@@ -371,7 +385,6 @@ void read_faces(FoamStream& stream, const FoamLayout& layout, bool compact,
 }
 
 void skip_list(FoamStream& stream, const FoamLayout& layout, std::string_view list_type) {
-  if (!layout.binary) return;  // tokens
   const auto name = list_type.substr(5, list_type.size() - 6);
   const auto* type = foam_type(name);
   const auto bytes = type != nullptr   ? type->components * layout.scalar_bytes
@@ -380,7 +393,8 @@ void skip_list(FoamStream& stream, const FoamLayout& layout, std::string_view li
                                        : 0U;
   if (bytes == 0) return;  // List<word> and the like stay text
   const auto opening = read_opening(stream, layout);
-  if (opening.form != Opening::Form::parenthesis) return;
+  if (opening.form == Opening::Form::empty) return;
+  if (!layout.binary || opening.form == Opening::Form::uniform) return skip_text(stream);
   check_claim(stream, opening.count, bytes, name, true);
   if (!stream.skip(opening.count * bytes)) stream.fail_cut("the file ends inside a binary list");
   close_binary(stream, layout, opening.count * bytes);

@@ -44,7 +44,8 @@ const FoamType* foam_type(std::string_view name);
 /// What a list must hold, where that is known before it is read.
 struct FoamCount {
   std::uint64_t count;
-  std::string_view of;  ///< "mesh has 200 cells": the words around the number
+  std::string_view whole = "mesh";  ///< "list declares 199 values, mesh has 200 cells"
+  std::string_view parts = "cells";
 };
 
 /// Numbers that are nan or infinite: they must never reach a mean.

@@ -57,8 +57,7 @@ inline bool number_here(const char*& p, const char* end, double& value) {
     at += minus || *at == '+';
     int power = 0;
     const char* const power_digits = at;
-    for (; (digit = static_cast<unsigned char>(*at) - unsigned{'0'}) < 10 &&
-           at - power_digits < 4;
+    for (; (digit = static_cast<unsigned char>(*at) - unsigned{'0'}) < 10 && at - power_digits < 4;
          ++at)
       power = power * 10 + static_cast<int>(digit);
     simple = at != power_digits;
@@ -66,9 +65,9 @@ inline bool number_here(const char*& p, const char* end, double& value) {
   }
   if (simple && digits <= (1ULL << 53) && exponent >= -22 && exponent <= 22) {
     const auto whole = static_cast<double>(digits);
-    const double magnitude =
-        exponent < 0 ? whole / detail::power_of_ten[static_cast<std::size_t>(-exponent)]
-                     : whole * detail::power_of_ten[static_cast<std::size_t>(exponent)];
+    const double magnitude = exponent < 0
+                                 ? whole / detail::power_of_ten[static_cast<std::size_t>(-exponent)]
+                                 : whole * detail::power_of_ten[static_cast<std::size_t>(exponent)];
     value = negative ? -magnitude : magnitude;
     p = at;
     return ends_number(*at);

@@ -14,9 +14,7 @@ constexpr std::size_t padding = 64;  // bytes behind the end that may be read: l
 constexpr std::size_t longest_token = 1U << 20;
 
 bool is_sign(char c) { return c != '\0' && std::strchr("(){}[];,", c) != nullptr; }
-bool begins_number(char c) {
-  return (c >= '0' && c <= '9') || c == '-' || c == '+' || c == '.';
-}
+bool begins_number(char c) { return (c >= '0' && c <= '9') || c == '-' || c == '+' || c == '.'; }
 
 }  // namespace
 
@@ -189,10 +187,10 @@ FoamToken FoamStream::next() {
     token.kind = FoamToken::Kind::directive;
     read_code(token);
   } else {
-    token.kind = c == '$'             ? FoamToken::Kind::variable
-                 : c == '#'           ? FoamToken::Kind::directive
-                 : begins_number(c)   ? FoamToken::Kind::number
-                                      : FoamToken::Kind::word;
+    token.kind = c == '$'           ? FoamToken::Kind::variable
+                 : c == '#'         ? FoamToken::Kind::directive
+                 : begins_number(c) ? FoamToken::Kind::number
+                                    : FoamToken::Kind::word;
     read_word(token);
   }
   return token;

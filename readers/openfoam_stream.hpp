@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The characters and tokens of an OpenFOAM file, read forward in pieces; binary lists in between are
-// taken by length. Inside a collated file the stream ends where the block of one rank ends.
+// The characters and tokens of an OpenFOAM file, read forward in pieces; binary lists in between
+// are taken by length. Inside a collated file the stream ends where the block of one rank ends.
 #pragma once
 
 #include <fmt/format.h>
