@@ -9,14 +9,16 @@ FoamBlocks::FoamBlocks(const std::string& path) : stream_(path), header_(read_he
   collated_ = header_.class_name == "decomposedBlockData";
 }
 
-// Behind a block: its closing parenthesis, or its declared length was not true.
 void FoamBlocks::close() {
   if (!open_) return;
   stream_.leave();
   open_ = false;
-  if (!stream_.take(')'))
-    throw FormatError("{}: block {}: expected \")\" after {} bytes, found {}", stream_.path(),
-                      blocks_ - 1, bytes_, stream_.found());
+  if (stream_.take(')')) return;
+  if (stream_.peek() == '\0')
+    throw CutError("{}: block {}: expected \")\" after {} bytes, found end of file", stream_.path(),
+                   blocks_ - 1, bytes_);
+  throw FormatError("{}: block {}: expected \")\" after {} bytes, found {}", stream_.path(),
+                    blocks_ - 1, bytes_, stream_.found());
 }
 
 bool FoamBlocks::next() {

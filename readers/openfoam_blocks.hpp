@@ -21,13 +21,14 @@ class FoamBlocks {
   /// Throws FormatError where the length of a block is not as declared.
   bool next();
 
+  /// Leaves the block and proves its length by the closing parenthesis.
+  void close();
+
   FoamStream& stream() { return stream_; }
   const FoamHeader& header() const { return header_; }  ///< of the data in this block
   bool collated() const { return collated_; }
 
  private:
-  void close();
-
   FoamStream stream_;
   FoamHeader header_;
   bool collated_ = false;

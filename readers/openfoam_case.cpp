@@ -79,6 +79,7 @@ struct OpenFoamCase::Impl {
           what(folder.first_rank + k, file);
         } catch (const FormatError& error) {
           if (!folder.collated) throw;
+          file.close();  // a wrong length of the block is the better explanation
           throw FormatError("{} (block {})", error.what(), k);
         }
       }
@@ -406,11 +407,11 @@ void OpenFoamCase::read(std::size_t time, std::string_view field, FieldValues& o
   }
   FieldValues part;
   std::vector<double> value;  // of the first rank, where that is uniform
-  const auto head = [](const FieldValues& field) {
+  const auto head = [](const FieldValues& from) {
     return std::vector<double>(
-        field.values.begin(),
-        field.values.begin() + static_cast<std::ptrdiff_t>(
-                                   std::min<std::size_t>(field.values.size(), field.components)));
+        from.values.begin(),
+        from.values.begin() + static_cast<std::ptrdiff_t>(
+                                  std::min<std::size_t>(from.values.size(), from.components)));
   };
   bool first = true;
   impl_->for_each_rank(relative, [&](std::size_t rank, FoamBlocks& file) {

@@ -149,6 +149,7 @@ void FoamStream::read_word(FoamToken& token) {
   for (; ensure(1) && token.text.size() < longest_token; ++at_) {
     const char c = *at_;
     if (is_blank(c) || c == '"') break;
+    if (c == '/' && ensure(2) && (at_[1] == '/' || at_[1] == '*')) break;  // a comment
     if (braced && token.text.size() > 0) {
       token.text += c;
       if (c == '}') {
@@ -158,6 +159,10 @@ void FoamStream::read_word(FoamToken& token) {
       continue;
     }
     if (is_sign(c)) {
+      if (number && c == ',') {  // 0,003 is one word, and no number
+        token.text += c;
+        continue;
+      }
       if (number || (c != '(' && c != ')' && c != ',' && c != '[' && c != ']')) break;
       if (c == '(') ++depth;
       if (c == ')' && --depth < 0) break;
@@ -236,9 +241,11 @@ void FoamStream::leave() {
 void FoamStream::fail_text(std::uint64_t offset, bool cut, const std::string& text) const {
   const auto line = source_ == nullptr ? 0 : line_at(path_, offset);
   const auto where = line == 0 ? path_ : fmt::format("{}: line {}", path_, line);
-  if (cut && source_ != nullptr && !source_->cut().empty())
+  // Whatever is wrong with the last characters of a file: more may have followed.
+  const bool at_end = source_ != nullptr && at_ == end_ && (left() == 0 || !source_->cut().empty());
+  if (source_ != nullptr && !source_->cut().empty())
     throw CutError("{}: {} ({})", where, text, source_->cut());
-  if (cut) throw CutError("{}: {}", where, text);
+  if (cut || at_end) throw CutError("{}: {}", where, text);
   throw FormatError("{}: {}", where, text);
 }
 
