@@ -11,6 +11,7 @@
 
 #include "readers/openfoam_field.hpp"
 #include "readers/openfoam_mesh.hpp"
+#include "readers/snapshot.hpp"
 
 namespace bedscope::readers {
 
@@ -38,6 +39,8 @@ struct OpenFoamTime {
 /// reading is const, thread-safe, and keeps no file open.
 class OpenFoamCase {
  public:
+  struct Impl;  ///< openfoam_case_impl.hpp
+
   /// Throws InputError where the case leaves a choice (both kinds of ranks, several regions), and
   /// FormatError for a mesh that is wrong or a case without one complete time.
   static OpenFoamCase open(const std::string& path, const OpenFoamOptions& options = {});
@@ -56,6 +59,16 @@ class OpenFoamCase {
   /// Throws InputError for a field that is not there, FormatError for one that is wrong.
   void read(std::size_t time, std::string_view field, FieldValues& out) const;
 
+  /// Lagrangian clouds at a time (kinematicCloud ...); a cloud without parcels may be absent.
+  std::vector<std::string> clouds_at(std::size_t time) const;
+  /// The columns of a cloud: x y z, vx vy vz (U or v), its fields by name (vectors as f[1] f[2]
+  /// f[3]) and by ours: radius, diameter, id (origId), type (typeId).
+  std::vector<std::string> cloud_columns(std::size_t time, std::string_view cloud) const;
+  /// Reads a cloud as particles, rank after rank. One parcel stands for nParticle particles.
+  /// Returns what is worth a warning. Throws FormatError (counts that differ, negative diameters).
+  std::vector<std::string> read_cloud(std::size_t time, std::string_view cloud,
+                                      const Request& request, Snapshot& out) const;
+
   /// Things worth a warning: times that a rank lacks, fields missing at some times, a last time
   /// that is cut (and left out), .gz beside plain files.
   const std::vector<std::string>& problems() const;
@@ -63,7 +76,6 @@ class OpenFoamCase {
   std::size_t ranks() const;                        ///< 1 for a whole case
 
  private:
-  struct Impl;
   explicit OpenFoamCase(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
   std::shared_ptr<const Impl> impl_;
 };

@@ -256,6 +256,12 @@ void skip_text(FoamStream& stream) {
   }
 }
 
+void check_expected(FoamStream& stream, std::uint64_t count, std::optional<FoamCount> expected) {
+  if (expected && count != expected->count)
+    stream.fail(stream.offset(), "list declares {} values, {} has {} {}", count, expected->whole,
+                expected->count, expected->parts);
+}
+
 }  // namespace
 
 const FoamType* foam_type(std::string_view name) {
@@ -289,9 +295,7 @@ NonFinite read_values(FoamStream& stream, const FoamLayout& layout, const FoamTy
   out.clear();
   NonFinite seen;
   const auto opening = read_opening(stream, layout);
-  if (expected && opening.form != Opening::Form::uncounted && opening.count != expected->count)
-    stream.fail(stream.offset(), "list declares {} values, {} has {} {}", opening.count,
-                expected->whole, expected->count, expected->parts);
+  if (opening.form != Opening::Form::uncounted) check_expected(stream, opening.count, expected);
   switch (opening.form) {
     case Opening::Form::empty:
       break;
@@ -326,11 +330,21 @@ NonFinite read_values(FoamStream& stream, const FoamLayout& layout, const FoamTy
   return seen;
 }
 
-void read_labels(FoamStream& stream, const FoamLayout& layout, std::vector<std::int32_t>& out) {
+void read_labels(FoamStream& stream, const FoamLayout& layout, std::vector<std::int32_t>& out,
+                 std::optional<FoamCount> expected) {
   out.clear();
   const auto opening = read_opening(stream, layout);
-  if (opening.form == Opening::Form::uniform || opening.form == Opening::Form::uncounted)
-    stream.fail(stream.offset(), "expected a list of labels with its length, found another form");
+  if (opening.form == Opening::Form::uncounted)
+    stream.fail(stream.offset(), "expected a list of labels with its length, found \"(\"");
+  check_expected(stream, opening.count, expected);
+  if (opening.form == Opening::Form::uniform) {
+    if (!expected)
+      stream.fail(stream.offset(), "a uniform list of {} labels where their number is not known",
+                  opening.count);
+    out.assign(static_cast<std::size_t>(opening.count), read_label(stream, "a uniform list"));
+    stream.expect('}', "the label of a uniform list");
+    return;
+  }
   if (opening.form == Opening::Form::empty) return;
   check_claim(stream, opening.count, layout.binary ? layout.label_bytes : 2, "label",
               layout.binary);

@@ -61,7 +61,8 @@ NonFinite read_values(FoamStream& stream, const FoamLayout& layout, const FoamTy
                       std::optional<FoamCount> expected, std::vector<double>& out);
 
 /// Reads a list of labels.
-void read_labels(FoamStream& stream, const FoamLayout& layout, std::vector<std::int32_t>& out);
+void read_labels(FoamStream& stream, const FoamLayout& layout, std::vector<std::int32_t>& out,
+                 std::optional<FoamCount> expected = std::nullopt);
 
 /// Reads faceList (ascii: `N ( 4(0 1 2 3) ... )`) or faceCompactList (offsets, then labels). The
 /// points of face f are points[starts[f]] ... points[starts[f + 1] - 1].

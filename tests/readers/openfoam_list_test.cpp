@@ -209,7 +209,7 @@ TEST(OpenFoamList, CorpusListsHaveTheirExpectedNumbers) {
       const auto layout = layout_of(file.header(), path);
       if (file.header().class_name.starts_with("label")) {
         std::vector<std::int32_t> labels;
-        read_labels(file.stream(), layout, labels);
+        read_labels(file.stream(), layout, labels, FoamCount{std::stoul(row[6])});
         values.assign(labels.begin(), labels.end());
       } else {
         read_values(file.stream(), layout, *foam_type(components == 3 ? "vector" : "scalar"),
