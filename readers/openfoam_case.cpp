@@ -123,9 +123,13 @@ void OpenFoamCase::read(std::size_t time, std::string_view field, FieldValues& o
                         file.stream().path(), rank);
     }
     const auto& address = ranked->address[rank];
-    for (std::size_t c = 0; c < address.size(); ++c)
-      for (std::size_t k = 0; k < n; ++k)
-        out.values[static_cast<std::size_t>(address[c]) * n + k] = part.values[c * n + k];
+    // Cells follow one another in rows, so rows are copied.
+    for (std::size_t c = 0, next = 0; c < address.size(); c = next) {
+      for (next = c + 1; next < address.size() && address[next] == address[next - 1] + 1;) ++next;
+      std::copy_n(part.values.begin() + static_cast<std::ptrdiff_t>(c * n), (next - c) * n,
+                  out.values.begin() +
+                      static_cast<std::ptrdiff_t>(static_cast<std::size_t>(address[c]) * n));
+    }
     out.non_finite.values += part.non_finite.values;
     out.uniform =
         out.uniform && part.uniform && (first || part.values.empty() || value == head(part));

@@ -3,22 +3,14 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
-#include <cstring>
 #include <limits>
 
+#include "readers/openfoam_list_parts.hpp"
 #include "readers/openfoam_numbers.hpp"
 
 namespace bedscope::readers {
-namespace {
 
-constexpr std::size_t piece_bytes = 1U << 18;  // read, converted and checked while in the cache
-
-/// The opening of a list: how many values, and what follows.
-struct Opening {
-  enum class Form { empty, parenthesis, uniform, uncounted } form = Form::empty;
-  std::uint64_t count = 0;
-};
+namespace detail {
 
 std::uint64_t claimed_count(FoamStream& stream, const FoamToken& token) {
   std::int64_t count = 0;
@@ -57,21 +49,25 @@ void check_claim(FoamStream& stream, std::uint64_t count, std::uint64_t bytes,
                   stream.left());
 }
 
-// Room for `more` further numbers of `total`: at once where the file can surely hold them, else
-// as they come (a gzip file claims what it likes).
-template <class T>
-void make_room(std::vector<T>& out, const FoamStream& stream, std::uint64_t total) {
-  if (!stream.compressed()) out.reserve(static_cast<std::size_t>(total));
+void close_binary(FoamStream& stream, const FoamLayout& layout, std::uint64_t bytes) {
+  if (stream.at() == stream.end() && !stream.more())
+    stream.fail_cut("expected \")\" after {} bytes, found end of file", bytes);
+  if (*stream.at() != ')')
+    stream.fail_binary("expected \")\" after {} bytes of a binary list ({})", bytes, layout.arch);
+  stream.go_to(stream.at() + 1);
 }
 
-template <class T>
-T swapped(T value) {
-  std::array<char, sizeof(T)> bytes;
-  std::memcpy(bytes.data(), &value, sizeof(T));
-  std::reverse(bytes.begin(), bytes.end());
-  std::memcpy(&value, bytes.data(), sizeof(T));
-  return value;
+void check_expected(FoamStream& stream, std::uint64_t count, std::optional<FoamCount> expected) {
+  if (expected && count != expected->count)
+    stream.fail(stream.offset(), "list declares {} values, {} has {} {}", count, expected->whole,
+                expected->count, expected->parts);
 }
+
+}  // namespace detail
+
+namespace {
+
+using namespace detail;
 
 std::size_t count_non_finite(const double* values, std::size_t count) {
   constexpr std::uint64_t exponent = 0x7ff0000000000000;
@@ -89,47 +85,6 @@ void note_non_finite(const std::vector<double>& out, std::size_t from, unsigned 
     if (count_non_finite(out.data() + value * components, components) == 0) continue;
     if (seen.values++ == 0) seen.first = value;
   }
-}
-
-// `count` numbers of the type File on disk, in pieces of whole values.
-template <class File, class T, class Done>
-void read_binary(FoamStream& stream, const FoamLayout& layout, std::uint64_t count,
-                 std::size_t components, std::vector<T>& out, Done&& done) {
-  std::vector<File> piece;
-  const std::size_t step = piece_bytes / sizeof(File) / components * components;
-  const bool swap = layout.big_endian != (std::endian::native == std::endian::big);
-  while (count > 0) {
-    const auto now = static_cast<std::size_t>(std::min<std::uint64_t>(count, step));
-    const auto from = out.size();
-    out.resize(from + now);
-    std::size_t got = 0;
-    if constexpr (std::is_same_v<File, T>) {
-      got = stream.read({reinterpret_cast<char*>(out.data() + from), now * sizeof(T)});
-      if (swap) std::transform(out.begin() + from, out.end(), out.begin() + from, swapped<T>);
-    } else {
-      piece.resize(now);
-      got = stream.read({reinterpret_cast<char*>(piece.data()), now * sizeof(File)});
-      for (std::size_t i = 0; i < now; ++i) {
-        const File value = swap ? swapped(piece[i]) : piece[i];
-        out[from + i] = static_cast<T>(value);
-        if constexpr (std::is_integral_v<T>)
-          if (out[from + i] != value) stream.fail_binary("label {} does not fit in 32 bits", value);
-      }
-    }
-    if (got < now * sizeof(File))
-      stream.fail_cut("the file ends inside a binary list, {} numbers before its end",
-                      count - got / sizeof(File));
-    done(from);
-    count -= now;
-  }
-}
-
-void close_binary(FoamStream& stream, const FoamLayout& layout, std::uint64_t bytes) {
-  if (stream.at() == stream.end() && !stream.more())
-    stream.fail_cut("expected \")\" after {} bytes, found end of file", bytes);
-  if (*stream.at() != ')')
-    stream.fail_binary("expected \")\" after {} bytes of a binary list ({})", bytes, layout.arch);
-  stream.go_to(stream.at() + 1);
 }
 
 // One value at `p`; false where it is none or not all of it is there.
@@ -213,35 +168,6 @@ void read_uniform(FoamStream& stream, const FoamType& type, Opening opening,
   note_non_finite(out, 0, type.components, seen);
 }
 
-std::int32_t read_label(FoamStream& stream, std::string_view of) {
-  const auto token = stream.next();
-  if (token.at_end()) stream.fail_cut("expected a label of {}, found end of file", of);
-  std::int64_t value = 0;
-  bool overflow = false;
-  if (!parse_integer(token.text, value, overflow) || value != static_cast<std::int32_t>(value))
-    stream.fail(token.offset, "expected a label of {}, found \"{}\"", of, printable(token.text));
-  return static_cast<std::int32_t>(value);
-}
-
-// Labels of an ascii list up to its closing parenthesis.
-void read_ascii_labels(FoamStream& stream, std::uint64_t count, std::vector<std::int32_t>& out) {
-  for (std::uint64_t k = 0; k < count;) {
-    const char* p = skip_space(stream.at(), stream.end());
-    std::int32_t value = 0;
-    if (label_here(p, value) && p != stream.end() && ends_number(*p)) {
-      stream.go_to(p);
-    } else if (static_cast<std::size_t>(stream.end() - stream.at()) < longest_row &&
-               stream.more()) {
-      continue;
-    } else {
-      value = read_label(stream, "a list");
-    }
-    out.push_back(value);
-    ++k;
-  }
-  stream.expect(')', "the last label");
-}
-
 // Passes over numbers in an open bracket, up to the one that closes it.
 void skip_text(FoamStream& stream) {
   for (int depth = 1; depth > 0;) {
@@ -254,12 +180,6 @@ void skip_text(FoamStream& stream) {
     }
     stream.go_to(p);
   }
-}
-
-void check_expected(FoamStream& stream, std::uint64_t count, std::optional<FoamCount> expected) {
-  if (expected && count != expected->count)
-    stream.fail(stream.offset(), "list declares {} values, {} has {} {}", count, expected->whole,
-                expected->count, expected->parts);
 }
 
 }  // namespace
@@ -328,74 +248,6 @@ NonFinite read_values(FoamStream& stream, const FoamLayout& layout, const FoamTy
     stream.fail(stream.offset(), "list holds {} values, {} has {} {}", out.size() / type.components,
                 expected->whole, expected->count, expected->parts);
   return seen;
-}
-
-void read_labels(FoamStream& stream, const FoamLayout& layout, std::vector<std::int32_t>& out,
-                 std::optional<FoamCount> expected) {
-  out.clear();
-  const auto opening = read_opening(stream, layout);
-  if (opening.form == Opening::Form::uncounted)
-    stream.fail(stream.offset(), "expected a list of labels with its length, found \"(\"");
-  check_expected(stream, opening.count, expected);
-  if (opening.form == Opening::Form::uniform) {
-    if (!expected)
-      stream.fail(stream.offset(), "a uniform list of {} labels where their number is not known",
-                  opening.count);
-    out.assign(static_cast<std::size_t>(opening.count), read_label(stream, "a uniform list"));
-    stream.expect('}', "the label of a uniform list");
-    return;
-  }
-  if (opening.form == Opening::Form::empty) return;
-  check_claim(stream, opening.count, layout.binary ? layout.label_bytes : 2, "label",
-              layout.binary);
-  make_room(out, stream, opening.count);
-  if (!layout.binary) return read_ascii_labels(stream, opening.count, out);
-  const auto done = [](std::size_t) {};
-  if (layout.label_bytes == 4)
-    read_binary<std::int32_t>(stream, layout, opening.count, 1, out, done);
-  else
-    read_binary<std::int64_t>(stream, layout, opening.count, 1, out, done);
-  close_binary(stream, layout, opening.count * layout.label_bytes);
-}
-
-void read_faces(FoamStream& stream, const FoamLayout& layout, bool compact,
-                std::vector<std::int32_t>& starts, std::vector<std::int32_t>& points) {
-  if (compact) {
-    read_labels(stream, layout, starts);
-    read_labels(stream, layout, points);
-    if (starts.empty() && points.empty()) starts.push_back(0);
-    if (starts.empty() || starts.front() != 0 || !std::is_sorted(starts.begin(), starts.end()) ||
-        static_cast<std::size_t>(starts.back()) != points.size())
-      stream.fail(stream.offset(), "expected ascending offsets of faces that end at {}",
-                  points.size());
-    return;
-  }
-  starts.assign(1, 0);
-  points.clear();
-  FoamLayout ascii = layout;
-  ascii.binary = false;  // the outer list is text in both
-  const auto opening = read_opening(stream, ascii);
-  if (opening.form == Opening::Form::empty) return;
-  if (opening.form != Opening::Form::parenthesis)
-    stream.fail(stream.offset(), "expected a list of faces with its length, found another form");
-  check_claim(stream, opening.count, layout.binary ? 4 : 6, "face", false);
-  make_room(starts, stream, opening.count + 1);
-  std::vector<std::int32_t> face;
-  for (std::uint64_t f = 0; f < opening.count; ++f) {
-    if (layout.binary) {  // before compact lists: each face a binary list of labels
-      read_labels(stream, layout, face);
-      points.insert(points.end(), face.begin(), face.end());
-    } else {
-      const auto corners = claimed_count(stream, stream.next());
-      stream.expect('(', "the number of points of a face");
-      check_claim(stream, corners, 2, "label", false);
-      read_ascii_labels(stream, corners, points);
-    }
-    if (points.size() > std::numeric_limits<std::int32_t>::max())
-      stream.fail(stream.offset(), "faces with more than 2^31 points in all");
-    starts.push_back(static_cast<std::int32_t>(points.size()));
-  }
-  stream.expect(')', fmt::format("{} faces", opening.count));
 }
 
 void skip_list(FoamStream& stream, const FoamLayout& layout, std::string_view list_type) {
