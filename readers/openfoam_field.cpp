@@ -141,7 +141,8 @@ bool has_macro(FoamStream& stream) {
 const FoamType* vol_field_type(std::string_view name) {
   const auto colons = name.find("::");
   const auto inner = colons == std::string_view::npos ? "" : name.substr(colons);
-  if (inner != "" && inner != "::Internal" && inner != "::DimensionedInternalField") return nullptr;
+  if (!inner.empty() && inner != "::Internal" && inner != "::DimensionedInternalField")
+    return nullptr;
   name = name.substr(0, colons);
   if (!name.starts_with("vol") || !name.ends_with("Field") || name.size() < 9) return nullptr;
   std::string type(name.substr(3, name.size() - 8));

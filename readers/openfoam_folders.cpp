@@ -93,7 +93,7 @@ Ranks find_ranks(const std::string& root) {
 }
 
 std::string shown(const std::vector<FoamFolder>& folders) {
-  const auto first = fs::path(folders.front().path).filename().string();
+  auto first = fs::path(folders.front().path).filename().string();
   if (folders.size() == 1) return first;
   return first + ".." + std::to_string(folders.back().first_rank);
 }
@@ -126,7 +126,7 @@ bool includes(const std::vector<FoamTimeName>& all, const std::vector<FoamTimeNa
 }  // namespace
 
 std::vector<FoamFolder> find_folders(const std::string& root, Decomposition wanted) {
-  const std::vector<FoamFolder> whole{{root, 0, 1, false}};
+  std::vector<FoamFolder> whole{{root, 0, 1, false}};
   auto ranks = find_ranks(root);
   const bool decomposed = !ranks.separate.empty() || !ranks.collated.empty();
   if (wanted == Decomposition::reconstructed) return whole;

@@ -226,7 +226,8 @@ NonFinite read_values(FoamStream& stream, const FoamLayout& layout, const FoamTy
       read_ascii(stream, type, opening, out, seen);
       break;
     case Opening::Form::parenthesis: {
-      const std::uint64_t least = type.components * (layout.binary ? layout.scalar_bytes : 2);
+      const std::uint64_t least =
+          std::uint64_t{type.components} * (layout.binary ? layout.scalar_bytes : 2);
       check_claim(stream, opening.count, least, type.name, layout.binary);
       make_room(out, stream, opening.count * type.components);
       if (!layout.binary) {

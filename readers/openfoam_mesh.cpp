@@ -82,7 +82,7 @@ void read_cells(const OpenMeshFile& open, PolyMesh& mesh) {
   std::int32_t last = -1;
   for (const auto cell : mesh.owner) last = std::max(last, cell);
   for (const auto cell : mesh.neighbour) last = std::max(last, cell);
-  mesh.cells = static_cast<std::size_t>(last + 1);
+  mesh.cells = static_cast<std::size_t>(last) + 1;  // -1 wraps to none
   if (noted && static_cast<std::size_t>(*noted) != mesh.cells)
     throw FormatError("{}: note says nCells:{}, the faces bound {}", owner_path, *noted,
                       mesh.cells);

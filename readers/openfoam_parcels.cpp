@@ -31,7 +31,7 @@ void add_columns(std::string_view file, std::string_view class_name,
     const bool velocity = name == "U" || name == "v";
     for (std::size_t k = 0; k < 3; ++k)
       columns.push_back(
-          {velocity ? std::string("v") + "xyz"[k] : fmt::format("{}[{}]", name, k + 1), name, k});
+          {velocity ? fmt::format("v{}", "xyz"[k]) : fmt::format("{}[{}]", name, k + 1), name, k});
   } else if (class_name == "scalarField" || class_name == "labelField") {
     columns.push_back({name, name, 0});
     for (const auto& [on_disk, ours] : other_names)
@@ -42,7 +42,7 @@ void add_columns(std::string_view file, std::string_view class_name,
 // The folder of a cloud in the first folder of the case that has it: ranks may have no parcels.
 std::string cloud_folder(const OpenFoamCase::Impl& impl, const std::string& relative) {
   for (const auto& folder : impl.folders) {
-    auto path = folder.path + "/" + relative;
+    auto path = fmt::format("{}/{}", folder.path, relative);
     if (fs::is_directory(path)) return path;
   }
   return {};
@@ -59,7 +59,7 @@ std::vector<CloudColumn> columns_of(const OpenFoamCase::Impl& impl, const std::s
       names.push_back(entry->path().filename().string());
   std::sort(names.begin(), names.end());
   for (auto& name : names) {
-    FoamBlocks file(folder + "/" + name);
+    FoamBlocks file(fmt::format("{}/{}", folder, name));
     if (name.ends_with(".gz")) name.resize(name.size() - 3);
     if (file.next()) add_columns(name, file.header().class_name, columns);
   }
@@ -135,6 +135,7 @@ std::vector<std::string> OpenFoamCase::read_cloud(std::size_t time, std::string_
     throw InputError("{}: no such cloud, found {}", where, fmt::join(clouds_at(time), ", "));
   const auto columns = columns_of(*impl_, relative);
   std::vector<std::string> names;
+  names.reserve(columns.size());
   for (const auto& column : columns) names.push_back(column.name);
   const auto plan = plan_columns(names, request, where);
 

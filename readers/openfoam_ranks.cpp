@@ -11,7 +11,7 @@ std::string OpenFoamCase::Impl::mesh_file(const FoamFolder& folder, std::size_t 
                                           std::string_view name) const {
   const auto file = fmt::format("{}polyMesh/{}", region, name);
   for (std::size_t t = time + 1; t-- > 0 && moving;) {
-    const auto found = plain_or_gz(fmt::format("{}/{}/{}", folder.path, times[t].name, file));
+    auto found = plain_or_gz(fmt::format("{}/{}/{}", folder.path, times[t].name, file));
     if (!found.empty()) return found;
   }
   return plain_or_gz(fmt::format("{}/constant/{}", folder.path, file));

@@ -150,7 +150,7 @@ void FoamStream::read_word(FoamToken& token) {
     const char c = *at_;
     if (is_blank(c) || c == '"') break;
     if (c == '/' && ensure(2) && (at_[1] == '/' || at_[1] == '*')) break;  // a comment
-    if (braced && token.text.size() > 0) {
+    if (braced && !token.text.empty()) {
       token.text += c;
       if (c == '}') {
         ++at_;
