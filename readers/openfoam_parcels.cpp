@@ -74,7 +74,7 @@ std::vector<double> read_cloud_field(const OpenFoamCase::Impl& impl, const std::
   std::vector<std::int32_t> labels;
   for (const auto& folder : impl.folders) {
     if (!folder.collated && parcels[folder.first_rank] == 0) continue;
-    const auto path = OpenFoamCase::Impl::path_in(folder, relative + "/" + name);
+    const auto path = OpenFoamCase::Impl::path_in(folder, fmt::format("{}/{}", relative, name));
     OpenFoamCase::Impl::for_ranks_of(folder, path, [&](std::size_t rank, FoamBlocks& file) {
       const auto layout = layout_of(file.header(), path);
       const FoamCount expected{parcels[rank], "positions", "entries"};
