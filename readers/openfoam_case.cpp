@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "readers/openfoam_case.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "readers/openfoam_case_impl.hpp"
+
+namespace bedscope::readers {
+
+namespace fs = std::filesystem;
+
+void OpenFoamCase::Impl::find_regions() {
+  std::error_code error;
+  const fs::path constant = folders.front().path + "/constant";
+  for (auto entry = fs::directory_iterator(constant, error);
+       !error && entry != fs::directory_iterator(); entry.increment(error))
+    if (fs::is_directory(entry->path() / "polyMesh", error))
+      regions.push_back(entry->path().filename().string());
+  std::sort(regions.begin(), regions.end());
+  std::string list;
+  for (const auto& name : regions) list += (list.empty() ? "" : ", ") + name;
+  if (!region.empty() &&
+      std::count(regions.begin(), regions.end(), region.substr(0, region.size() - 1)) == 0)
+    throw InputError("{}: expected a region of the case ({}), found {}", root,
+                     list.empty() ? "it has none" : list, region.substr(0, region.size() - 1));
+  if (region.empty() && !regions.empty() && !fs::is_directory(constant / "polyMesh", error))
+    throw InputError("{}: several regions and no default one, name one of {}", root, list);
+}
+
+// A folder called `processors` does not say how many ranks it holds: its files do.
+void OpenFoamCase::Impl::count_ranks() {
+  for (auto& folder : folders) {
+    if (folder.collated && folder.ranks == 0) {
+      auto path = path_in(folder, "constant/" + region + "polyMesh/owner");
+      FoamBlocks file(path);
+      while (file.next()) ++folder.ranks;
+    }
+    ranks += folder.ranks;
+  }
+}
+
+OpenFoamCase OpenFoamCase::open(const std::string& path, const OpenFoamOptions& options) {
+  std::error_code error;
+  if (!fs::is_directory(path, error))
+    throw FileError("{}: expected the folder of an OpenFOAM case", path);
+  auto made = std::make_shared<Impl>();
+  made->root = path;
+  while (made->root.size() > 1 && made->root.ends_with('/')) made->root.pop_back();
+  if (!options.region.empty()) made->region = options.region + "/";
+  made->folders = find_folders(made->root, options.decomposition);
+  made->find_regions();
+  made->count_ranks();
+  made->find_times();
+  made->find_fields();
+  if (made->times.empty())
+    throw InputError("{}: expected a time with fields of cells, found none{}", made->root,
+                     made->problems.empty() ? "" : "; " + made->problems.front());
+  made->check_last_time();
+  made->tell_missing();
+  for (const auto& folder : made->folders)
+    for (const auto& time : made->times)
+      for (const auto* name : {"points", "faces", "owner"})
+        if (!plain_or_gz(
+                 fmt::format("{}/{}/{}polyMesh/{}", folder.path, time.name, made->region, name))
+                 .empty())
+          made->moving = true;
+  made->start = made->read_mesh(0);
+  return OpenFoamCase(std::move(made));
+}
+
+const std::vector<OpenFoamTime>& OpenFoamCase::times() const { return impl_->times; }
+const std::vector<std::string>& OpenFoamCase::fields_at(std::size_t time) const {
+  return impl_->times.at(time).fields;
+}
+const Mesh& OpenFoamCase::mesh() const { return impl_->start->mesh; }
+bool OpenFoamCase::moving() const { return impl_->moving; }
+std::shared_ptr<const Mesh> OpenFoamCase::mesh_at(std::size_t time) const {
+  const auto ranked = impl_->mesh_at(time);
+  return {ranked, &ranked->mesh};
+}
+const std::vector<std::string>& OpenFoamCase::problems() const { return impl_->problems; }
+const std::vector<std::string>& OpenFoamCase::regions() const { return impl_->regions; }
+std::size_t OpenFoamCase::ranks() const { return impl_->ranks; }
+
+void OpenFoamCase::read(std::size_t time, std::string_view field, FieldValues& out) const {
+  const auto& fields = impl_->times.at(time).fields;
+  const std::string name(field);
+  if (!std::binary_search(fields.begin(), fields.end(), name))
+    throw InputError("{}: no field {} at time {}, found {}", impl_->root, name,
+                     impl_->times[time].name, fmt::join(fields, ", "));
+  const auto ranked = impl_->mesh_at(time);
+  const auto relative = impl_->time_folder(time) + name;
+  if (impl_->ranks == 1) {
+    impl_->for_each_rank(relative, [&](std::size_t, FoamBlocks& file) {
+      read_field(file, FoamCount{ranked->cells[0]}, out);
+    });
+    return;
+  }
+  FieldValues part;
+  std::vector<double> value;  // of the first rank, where that is uniform
+  const auto head = [](const FieldValues& from) {
+    return std::vector<double>(
+        from.values.begin(),
+        from.values.begin() + static_cast<std::ptrdiff_t>(
+                                  std::min<std::size_t>(from.values.size(), from.components)));
+  };
+  bool first = true;
+  impl_->for_each_rank(relative, [&](std::size_t rank, FoamBlocks& file) {
+    read_field(file, FoamCount{ranked->cells[rank]}, part);
+    const auto n = part.components;
+    if (first) {
+      out.class_name = part.class_name;
+      out.components = n;
+      out.dimensions = part.dimensions;
+      out.dimensions_known = part.dimensions_known;
+      out.uniform = part.uniform;
+      out.no_header = part.no_header;
+      out.non_finite = {};
+      out.values.resize(ranked->mesh.cells() * n);
+    } else if (n != out.components || part.dimensions != out.dimensions) {
+      throw FormatError("{}: processor {}: type or dimensions differ from those of processor 0",
+                        file.stream().path(), rank);
+    }
+    const auto& address = ranked->address[rank];
+    // Cells follow one another in rows, so rows are copied.
+    for (std::size_t c = 0, next = 0; c < address.size(); c = next) {
+      for (next = c + 1; next < address.size() && address[next] == address[next - 1] + 1;) ++next;
+      std::copy_n(part.values.begin() + static_cast<std::ptrdiff_t>(c * n), (next - c) * n,
+                  out.values.begin() +
+                      static_cast<std::ptrdiff_t>(static_cast<std::size_t>(address[c]) * n));
+    }
+    out.non_finite.values += part.non_finite.values;
+    out.uniform =
+        out.uniform && part.uniform && (first || part.values.empty() || value == head(part));
+    if (first) value = head(part);
+    first = false;
+  });
+  for (std::size_t c = 0; out.non_finite.values > 0; ++c) {  // there is one
+    const auto* at = out.values.data() + c * out.components;
+    out.non_finite.first = c;
+    if (!std::all_of(at, at + out.components, [](double x) { return x - x == 0; })) break;
+  }
+}
+
+}  // namespace bedscope::readers

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The meshes of the ranks, put together in the order of the whole case.
+#include <algorithm>
+
+#include "readers/openfoam_case_impl.hpp"
+
+namespace bedscope::readers {
+
+// The newest file of a mesh at or before a time: times with points of their own move the mesh.
+std::string OpenFoamCase::Impl::mesh_file(const FoamFolder& folder, std::size_t time,
+                                          std::string_view name) const {
+  const auto file = fmt::format("{}polyMesh/{}", region, name);
+  for (std::size_t t = time + 1; t-- > 0 && moving;) {
+    auto found = plain_or_gz(fmt::format("{}/{}/{}", folder.path, times[t].name, file));
+    if (!found.empty()) return found;
+  }
+  return plain_or_gz(fmt::format("{}/constant/{}", folder.path, file));
+}
+
+void OpenFoamCase::Impl::read_addresses(std::size_t time, RankedMesh& mesh) const {
+  std::size_t total = 0, with = 0;
+  for (const auto cells : mesh.cells) total += cells;
+  std::vector<bool> taken(total);
+  mesh.address.resize(ranks);
+  for (const auto& folder : folders) {
+    const auto path = mesh_file(folder, time, "cellProcAddressing");
+    if (path.empty()) continue;
+    FoamBlocks file(path);
+    for (std::size_t k = 0; k < folder.ranks; ++k, ++with) {
+      const auto rank = folder.first_rank + k;
+      if (!file.next()) throw CutError("{}: expected {} blocks, found {}", path, folder.ranks, k);
+      auto& address = mesh.address[rank];
+      read_labels(file.stream(), layout_of(file.header(), path), address);
+      if (address.size() != mesh.cells[rank])
+        throw FormatError("{}: processor {}: {} cells, its mesh has {}", path, rank, address.size(),
+                          mesh.cells[rank]);
+      for (const auto cell : address) {
+        if (cell < 0 || static_cast<std::size_t>(cell) >= total)
+          throw FormatError(
+              "{}: processor {} names cell {}, all processors have {}: is one missing?", path, rank,
+              cell, total);
+        if (taken[static_cast<std::size_t>(cell)])
+          throw FormatError("{}: processor {} names cell {} a second time", path, rank, cell);
+        taken[static_cast<std::size_t>(cell)] = true;
+      }
+    }
+  }
+  if (with > 0 && with < ranks)
+    throw FormatError("{}: expected cellProcAddressing of {} processors, found {}", root, ranks,
+                      with);
+  if (with > 0) return;
+  std::int32_t next = 0;  // rank after rank, the mesh and the fields alike
+  for (std::size_t rank = 0; rank < ranks; ++rank)
+    for (std::size_t c = 0; c < mesh.cells[rank]; ++c) mesh.address[rank].push_back(next++);
+}
+
+OpenMeshFile OpenFoamCase::Impl::mesh_opener(const FoamFolder& folder, std::size_t block,
+                                             std::size_t time) const {
+  return [this, &folder, block, time](std::string_view name) -> std::unique_ptr<FoamBlocks> {
+    const auto path = mesh_file(folder, time, name);
+    if (path.empty() && name == "boundary") return nullptr;
+    if (path.empty())
+      throw FileError("{}/constant/{}polyMesh/{}: no such file", folder.path, region, name);
+    auto file = std::make_unique<FoamBlocks>(path);
+    for (std::size_t k = 0; k <= block; ++k)
+      if (!file->next()) throw CutError("{}: expected {} blocks, found {}", path, folder.ranks, k);
+    return file;
+  };
+}
+
+std::shared_ptr<const std::vector<CloudMesh>> OpenFoamCase::Impl::cloud_meshes(
+    std::size_t time) const {
+  const std::lock_guard lock(clouds_mutex);
+  if (!moving && clouds_start != nullptr) return clouds_start;
+  auto made = std::make_shared<std::vector<CloudMesh>>(ranks);
+  for (const auto& folder : folders)
+    for (std::size_t k = 0; k < folder.ranks; ++k) {
+      auto& mesh = (*made)[folder.first_rank + k];
+      mesh.poly = read_poly_mesh(mesh_opener(folder, k, time));
+      mesh.centres = cell_geometry(mesh.poly).centres;
+    }
+  clouds_start = made;
+  return made;
+}
+
+std::shared_ptr<const RankedMesh> OpenFoamCase::Impl::read_mesh(std::size_t time) const {
+  auto made = std::make_shared<RankedMesh>();
+  std::vector<CellGeometry> parts(ranks);
+  for (const auto& folder : folders) {
+    for (std::size_t k = 0; k < folder.ranks; ++k) {
+      parts[folder.first_rank + k] = cell_geometry(read_poly_mesh(mesh_opener(folder, k, time)));
+    }
+  }
+  for (const auto& part : parts) made->cells.push_back(part.volumes.size());
+  if (ranks == 1) {
+    made->mesh = make_mesh(std::move(parts.front()));
+    return made;
+  }
+  read_addresses(time, *made);
+  CellGeometry all;
+  std::size_t total = 0;
+  for (const auto cells : made->cells) total += cells;
+  all.centres.resize(total);
+  all.volumes.resize(total);
+  all.low.resize(total);
+  all.high.resize(total);
+  for (std::size_t rank = 0; rank < ranks; ++rank)
+    for (std::size_t c = 0; c < made->cells[rank]; ++c) {
+      const auto cell = static_cast<std::size_t>(made->address[rank][c]);
+      all.centres[cell] = parts[rank].centres[c];
+      all.volumes[cell] = parts[rank].volumes[c];
+      all.low[cell] = parts[rank].low[c];
+      all.high[cell] = parts[rank].high[c];
+    }
+  made->mesh = make_mesh(std::move(all));
+  return made;
+}
+
+}  // namespace bedscope::readers
