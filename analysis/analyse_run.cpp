@@ -168,9 +168,9 @@ struct LiveAnalysis::State {
     } else {
       const auto range = window_of(*setup);
       Window window{.first = range.first, .snapshots = range.count};
-      const auto complete = add_all(weights_of(*setup, range));
+      auto complete = add_all(weights_of(*setup, range));
       if (is_auto()) window = complete.choose_window();
-      result = complete.finish(*series, window);
+      result = std::move(complete).finish(*series, window);
     }
     result.label = settings.label;
     result.inputs = series->files();

@@ -41,6 +41,8 @@ struct WeightedSum {
 class Leaves {
  public:
   /// `first_power`: snapshots of one leaf of 2^first_power are added one after the other.
+  /// `limit` 0: nothing is kept apart; the total takes leaf after leaf in the order of the series,
+  /// which is a fixed tree too, of one sum instead of as many as the tree is high.
   Leaves(int first_power, std::size_t limit)
       : first_power_(first_power), power_(first_power), limit_(limit) {}
 
@@ -62,6 +64,11 @@ class Leaves {
 
   /// Merged over the leaves from `first_leaf` on.
   WeightedSum total(std::size_t first_leaf = 0) const {
+    if (limit_ == 0) {
+      auto sum = nodes_.empty() ? WeightedSum{} : nodes_.front().sum;
+      sum.merge(sum_);
+      return sum;
+    }
     constexpr int top = 62;  // above any index
     auto root = climb(first_leaf << power_, top);
     return root.empty() ? WeightedSum{} : std::move(root.begin()->second);
@@ -79,8 +86,14 @@ class Leaves {
   /// The open leaf is whole: it becomes a node, and merges with its sibling as far as leaves go.
   void close() {
     if (open_ == none) return;
+    if (limit_ == 0 && !nodes_.empty()) {
+      nodes_.front().sum.merge(sum_);
+      sum_ = {};
+      return;
+    }
     nodes_.push_back({first_power_, open_, std::move(sum_)});
     sum_ = {};
+    if (limit_ == 0) return;
     merge_siblings();
     const auto whole = [this](const Node& node) { return node.power == power_; };
     while (static_cast<std::size_t>(std::count_if(nodes_.begin(), nodes_.end(), whole)) > limit_) {

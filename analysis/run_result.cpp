@@ -213,21 +213,19 @@ void RunSums::pdf_of(const Species& species, const Window& window, SpeciesResult
   result.temperature_pdf = std::move(density);
 }
 
-void RunSums::clusters_of(const Window& window, RunResult& result) const {
+void RunSums::clusters_of(const Window& window, RunResult& result) {
   std::map<int, int> numbers;  // tracks are counted from 1 inside the window
   for (const auto& cluster : clusters_) {
     if (cluster.snapshot < window.first) continue;
     numbers.try_emplace(cluster.track, static_cast<int>(numbers.size()) + 1);
   }
-  for (const auto& cluster : clusters_) {
-    if (cluster.snapshot < window.first) continue;
-    auto kept = cluster;
-    kept.track = numbers.at(cluster.track);
-    kept.parents.clear();
-    for (const int parent : cluster.parents)
-      if (const auto found = numbers.find(parent); found != numbers.end())
-        kept.parents.push_back(found->second);
-    result.clusters.push_back(std::move(kept));
+  result.clusters = std::move(clusters_);
+  std::erase_if(result.clusters,
+                [&](const Cluster& cluster) { return cluster.snapshot < window.first; });
+  for (auto& cluster : result.clusters) {
+    cluster.track = numbers.at(cluster.track);
+    std::erase_if(cluster.parents, [&](int parent) { return !numbers.contains(parent); });
+    for (int& parent : cluster.parents) parent = numbers.at(parent);
   }
 }
 
@@ -282,7 +280,7 @@ void RunSums::means_of(const Window& window, RunResult& result) const {
                                           100 * result.outside_fraction));
 }
 
-RunResult RunSums::finish(const readers::Series& series, const Window& window) const {
+RunResult RunSums::finish(const readers::Series& series, const Window& window) && {
   RunResult result;
   const auto& setup = *setup_;
   result.grid = setup.grid;

@@ -22,9 +22,9 @@ constexpr std::size_t kept_leaves = 64;   // of profiles: enough for 10 batches,
 RunSums::RunSums(const RunSetup& setup, bool keep_blocks, bool keep_contours)
     : setup_(&setup),
       keep_contours_(keep_contours),
-      fields_(block_power, keep_blocks ? kept_blocks : 1),
+      fields_(block_power, keep_blocks ? kept_blocks : 0),
       profiles_(0, kept_leaves),
-      histograms_(block_power, keep_blocks ? kept_blocks : 1),
+      histograms_(block_power, keep_blocks ? kept_blocks : 0),
       tracker_(setup.grid) {}
 
 std::size_t RunSums::slot_number(SlotKey key) {

@@ -30,7 +30,8 @@ class RunSums {
 
   /// Averages and their errors over `window` (which must be what the weights were for, or begin at
   /// a block where blocks were kept), into a result without label, times of work and inputs.
-  RunResult finish(const readers::Series& series, const Window& window) const;
+  /// Uses itself up: short series move into the result.
+  RunResult finish(const readers::Series& series, const Window& window) &&;
 
  private:
   struct SlotSample {
@@ -57,7 +58,7 @@ class RunSums {
                    std::vector<std::string>& doubts) const;
   void fields_of(const Species& species, const WeightedSum& sum, SpeciesResult& result) const;
   void pdf_of(const Species& species, const Window& window, SpeciesResult& result) const;
-  void clusters_of(const Window& window, RunResult& result) const;
+  void clusters_of(const Window& window, RunResult& result);
   void means_of(const Window& window, RunResult& result) const;
 
   const RunSetup* setup_;

@@ -44,7 +44,7 @@ class Mapper {
       const double u = vx != nullptr ? vx[i] : 0;
       const double w = vz != nullptr ? vz[i] : 0;
       const double m = density != nullptr ? density[i] : 0;
-      if (!std::isfinite(x[i] + y[i] + z[i] + u + w + r + m)) {  // one test for nan and inf in any
+      if (!std::isfinite(u + w + r + m)) {  // one test for nan and inf in any
         out_.flaws.not_finite.add(out_.snapshot, i, id(i));
         continue;
       }
@@ -52,19 +52,29 @@ class Mapper {
         flush(sums);
         sums = {of, slot_of({of, -1}).fields.data(), {}};
       }
+      const double volume = r > 0 ? sphere_volume(r) : 0;
+      const double part = share(kernel, {x[i], y[i], z[i]}, r, u, w, sums.fields);
+      if (!(part >= volume)) {  // not wholly inside: is it anywhere?
+        if (!std::isfinite(x[i] + y[i] + z[i])) {
+          out_.flaws.not_finite.add(out_.snapshot, i, id(i));
+          continue;
+        }
+        farthest = std::max({farthest, std::abs(x[i]), std::abs(y[i]), std::abs(z[i])});
+      }
       ++sums.solids.particles;
       if (r <= 0) {
         out_.flaws.no_size.add(out_.snapshot, i, id(i));
         continue;
       }
-      const double volume = sphere_volume(r);
-      const double mass = by_mass ? density[i] : density != nullptr ? density[i] * volume : 0;
-      sums.solids.add(volume, mass, z[i] - floor);
+      const double mass = by_mass ? m : m * volume;
+      sums.solids.volume += volume;
+      sums.solids.moment += volume * (z[i] - floor);
+      if (density != nullptr) {
+        sums.solids.mass += mass;
+        sums.solids.mass_moment += mass * (z[i] - floor);
+      }
       total += volume;
-      const double part = share(kernel, {x[i], y[i], z[i]}, r, u, w, sums.fields);
       inside += part;
-      if (part < volume)  // implausible positions are outside
-        farthest = std::max({farthest, std::abs(x[i]), std::abs(y[i]), std::abs(z[i])});
       for (std::size_t rule = 0; rule < rules; ++rule) {
         if (!setup_.settings.species[rule].holds(columns_[column_first_rule + rule][i])) continue;
         auto& chosen = slot_of({of, static_cast<int>(rule)});

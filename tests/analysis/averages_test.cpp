@@ -70,6 +70,22 @@ TEST(Leaves, ASeriesThatGrewGivesTheBitsOfAFreshOne) {
   EXPECT_NE(copy.total().slots, grown.total().slots);
 }
 
+TEST(Leaves, OfLimitZeroAreOneSumInTheOrderOfTheSeries) {
+  Leaves leaves(4, 0);
+  WeightedSum expected;
+  for (std::size_t block = 0; block * 16 < snapshots; ++block) {
+    WeightedSum sum;
+    for (std::size_t i = block * 16; i < std::min((block + 1) * 16, snapshots); ++i) {
+      add(leaves, i);
+      sum.weight += 0.1;
+      sum.add(0.1, 0, values_of(i));
+    }
+    expected.merge(sum);
+    EXPECT_EQ(leaves.total().slots, expected.slots);
+    EXPECT_EQ(leaves.total().weight, expected.weight);
+  }
+}
+
 TEST(Leaves, ATotalCanBeginAtALeaf) {
   const auto all = filled(4, 128);
   const auto late = filled(4, 128, 160);
