@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "readers/error.hpp"
+#include "readers/processor.hpp"
 
 namespace bedscope::analysis {
 namespace {
@@ -19,7 +20,7 @@ class Mapper {
       : setup_(setup), columns_(snapshot.columns), rows_(snapshot.particles), out_(out) {}
 
   template <class Kernel>
-  [[gnu::flatten]] void run(const Kernel& kernel) {
+  [[gnu::flatten]] BEDSCOPE_FOR_EACH_PROCESSOR void run(const Kernel& kernel) {
     const double* const x = columns_[column_lateral].data();
     const double* const y = columns_[column_depth].data();
     const double* const z = columns_[column_up].data();

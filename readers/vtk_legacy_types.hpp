@@ -12,6 +12,8 @@
 #include <string_view>
 #include <type_traits>
 
+#include "readers/processor.hpp"
+
 namespace bedscope::readers::vtk_legacy_file {
 
 /// Kinds of number in a legacy VTK file.
@@ -91,8 +93,10 @@ void decode(const char* from, std::size_t tuples, std::size_t components, std::s
 }
 
 /// Component `component` of big-endian tuples as doubles.
-inline void decode(const Type& type, const char* from, std::size_t tuples, std::size_t components,
-                   std::size_t component, double* to) {
+[[gnu::flatten]] BEDSCOPE_FOR_EACH_PROCESSOR inline void decode(const Type& type, const char* from,
+                                                                std::size_t tuples,
+                                                                std::size_t components,
+                                                                std::size_t component, double* to) {
   const auto with = [&](auto zero) {
     decode<decltype(zero)>(from, tuples, components, component, to);
   };
