@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <condition_variable>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -46,27 +47,38 @@ void for_each_product(const RunSetup& setup, const readers::Series& series, std:
     }
     return;
   }
-  // Each thread takes the next snapshot, makes its product and waits for its turn to deliver it: no
-  // more than one product a thread is alive, and the order is that of the series.
+  // Each thread takes the next snapshot and makes its product; whoever finishes the one whose turn
+  // it is hands over all that are ready. One product more than threads, so that nobody waits for a
+  // slow neighbour.
+  std::vector<Item> items(static_cast<std::size_t>(threads) + 1);
+  std::vector<Item*> idle;
+  for (auto& item : items) idle.push_back(&item);
+  std::map<std::size_t, Item*> ready;
   std::mutex mutex;
   std::condition_variable delivered;
   std::size_t next = first, turn = first;
   std::exception_ptr failure;
   const auto work = [&] {
-    Item item;
     std::unique_lock lock(mutex);
-    while (next < last && !failure) {
+    while (true) {
+      delivered.wait(lock, [&] { return !idle.empty() || next == last || failure; });
+      if (next == last || failure) return;
       const std::size_t i = next++;
+      Item* const item = idle.back();
+      idle.pop_back();
       lock.unlock();
-      make_item(setup, series, i, item);
+      make_item(setup, series, i, *item);
       lock.lock();
-      delivered.wait(lock, [&] { return turn == i; });
+      ready[i] = item;
       try {
-        if (!failure) deliver(item);
+        for (; !failure && !ready.empty() && ready.begin()->first == turn; ++turn) {
+          idle.push_back(ready.begin()->second);
+          ready.erase(ready.begin());
+          deliver(*idle.back());
+        }
       } catch (...) {
         failure = std::current_exception();
       }
-      ++turn;
       delivered.notify_all();
     }
   };
