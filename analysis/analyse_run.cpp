@@ -52,6 +52,7 @@ void for_each_product(const RunSetup& setup, const readers::Series& series, std:
   // slow neighbour.
   std::vector<Item> items(static_cast<std::size_t>(threads) + 1);
   std::vector<Item*> idle;
+  idle.reserve(items.size());
   for (auto& item : items) idle.push_back(&item);
   std::map<std::size_t, Item*> ready;
   std::mutex mutex;
@@ -84,6 +85,7 @@ void for_each_product(const RunSetup& setup, const readers::Series& series, std:
   };
   {
     std::vector<std::jthread> team;
+    team.reserve(static_cast<std::size_t>(threads));
     for (int k = 0; k < threads; ++k) team.emplace_back(work);
   }
   if (failure) std::rethrow_exception(failure);

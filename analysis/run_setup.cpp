@@ -164,6 +164,14 @@ void set_cells(FirstRows& first, RunSetup& setup) {
                      cells, most_cells);
 }
 
+/// The density of all templates in the log, where they have the same.
+std::optional<double> one_density(const readers::LiggghtsLog& log) {
+  for (const auto& [type, density] : log.density)
+    if (density != log.density.begin()->second) return std::nullopt;
+  if (log.density.empty()) return std::nullopt;
+  return log.density.begin()->second;
+}
+
 void set_density(const readers::Series& series, const readers::LiggghtsLog& log, RunSetup& setup) {
   using From = RunSetup::Density;
   const auto& names = series.columns();
@@ -178,8 +186,9 @@ void set_density(const readers::Series& series, const readers::LiggghtsLog& log,
     setup.density_from = From::density_column;
   } else if (in_dumps(series, "mass") && !bodies) {
     setup.density_from = From::mass_column;
-  } else if (!log.density.empty()) {
+  } else if (one_density(log) || (!log.density.empty() && in_dumps(series, "type"))) {
     setup.density_from = From::by_type;
+    setup.density.all = one_density(log);
     setup.density.of_type = log.density;
     setup.problems.push_back(fmt::format("density taken from {}", log.path));
   } else {

@@ -23,8 +23,8 @@ bool has_footer(const std::string& path) {
   tail.resize(source.read(tail));
   const auto last = tail.find_last_not_of(" \t\r\n");
   return last != std::string::npos &&
-         std::string_view(tail).substr(0, last + 1).ends_with("* * //") |
-             std::string_view(tail).substr(0, last + 1).ends_with("** //");
+         (std::string_view(tail).substr(0, last + 1).ends_with("* * //") ||
+          std::string_view(tail).substr(0, last + 1).ends_with("** //"));
 }
 
 std::string file_name(const std::string& path) { return fs::path(path).filename().string(); }
