@@ -48,14 +48,17 @@ struct Slabs {
 
   /// Where box_volumes puts the box of slabs i, j, k.
   static constexpr std::size_t box(int i, int j, int k) {
-    return static_cast<std::size_t>(i + size * (j + size * k));
+    return static_cast<std::size_t>(i) +
+           std::size_t{size} *
+               (static_cast<std::size_t>(j) + std::size_t{size} * static_cast<std::size_t>(k));
   }
 };
 
 /// Volumes of the unit sphere in the boxes of three families of slabs, into `volumes`, box (i,j,k)
 /// at i + Slabs::size * (j + Slabs::size * k). Exactly 0 where sphere and box do not meet, and
 /// never negative.
-using BoxVolumes = std::array<double, Slabs::size * Slabs::size * Slabs::size>;
+using BoxVolumes = std::array<double, std::size_t{Slabs::size} * std::size_t{Slabs::size} *
+                                          std::size_t{Slabs::size}>;
 void box_volumes(const Slabs& x, const Slabs& y, const Slabs& z, BoxVolumes& volumes);
 
 }  // namespace bedscope::analysis

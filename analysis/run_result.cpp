@@ -129,9 +129,8 @@ void RunSums::profiles_of(const Species& species, const Window& window, SpeciesR
     profile.velocity_z.push_back(moves ? estimate_ratio(moved, holdup, weights) : Estimate{});
     const bool finite =
         std::all_of(flux.begin(), flux.end(), [](double g) { return std::isfinite(g); });
-    profile.mass_flux_z.push_back(moves && finite && density_known()
-                                      ? static_cast<Estimate>(estimate_mean(flux, weights))
-                                      : Estimate{});
+    profile.mass_flux_z.push_back(
+        moves && finite && density_known() ? estimate_mean(flux, weights).estimate() : Estimate{});
   };
   for (std::size_t k = 0; k < nz; ++k) {
     result.axial.coordinate.push_back(grid.centre(up, static_cast<int>(k)));
@@ -254,13 +253,13 @@ void RunSums::means_of(const Window& window, RunResult& result) const {
     bed.push_back(moment > 0 ? 1 - sample.volume / (area * 2 * moment / sample.volume) : 1);
   }
   const auto mean = estimate_mean(holdup, weights);
-  result.mean_holdup = mean;
+  result.mean_holdup = mean.estimate();
   result.independent_samples = mean.independent_samples;
-  result.mean_occurrence = estimate_mean(clusters, weights);
-  result.bed_voidage = estimate_mean(bed, weights);
+  result.mean_occurrence = estimate_mean(clusters, weights).estimate();
+  result.bed_voidage = estimate_mean(bed, weights).estimate();
   if (density_known() &&
       std::all_of(mass.begin(), mass.end(), [](double m) { return std::isfinite(m); }))
-    result.inventory_mass = estimate_mean(mass, weights);
+    result.inventory_mass = estimate_mean(mass, weights).estimate();
   result.outside_fraction = volume > 0 ? std::max(0., outside / volume) : 0;
   const auto [least, most] = std::minmax_element(volumes.begin(), volumes.end());
   if (volumes.size() > 1 && *most - *least <= 1e-12 * *most)

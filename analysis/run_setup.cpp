@@ -82,7 +82,7 @@ void set_domain(const readers::Series& series, FirstRows& first, RunSetup& setup
     min = box.min;
     max = box.max;
     if (!settings.periodic) periodic = box.periodic;
-    setup.problems.push_back("domain assumed: the box of the first dump");
+    setup.problems.emplace_back("domain assumed: the box of the first dump");
   } else {
     setup.domain_assumed = true;
     const double r = mean_radius(setup, first);
@@ -102,7 +102,8 @@ void set_domain(const readers::Series& series, FirstRows& first, RunSetup& setup
       min[axis] = low - r;
       max[axis] = high + r;
     }
-    setup.problems.push_back("domain assumed: the extent of the particles of the first snapshot");
+    setup.problems.emplace_back(
+        "domain assumed: the extent of the particles of the first snapshot");
   }
   const auto axes = bed_axes(settings);
   for (std::size_t k = 0; k < 3; ++k) {
@@ -259,7 +260,7 @@ void update_times(RunSetup& setup, const readers::Series& series) {
   setup.half_step = 0.5;
   if (!setup.time_known) return;
   setup.time_known = false;
-  setup.problems.push_back(
+  setup.problems.emplace_back(
       "time step unknown (no study, no log.liggghts beside the dumps): times are nan, snapshots "
       "weigh by their steps");
 }

@@ -12,6 +12,8 @@ namespace bedscope::analysis {
 
 /// A mean with its error and with what is to be said about that error.
 struct MeanEstimate : Estimate {
+  /// The mean and its interval alone.
+  const Estimate& estimate() const { return *this; }
   double independent_samples = 0;  ///< n / integrated autocorrelation time, at most n
   bool few_samples = false;        ///< too few independent ones for the interval to be trusted
   bool disagree = false;  ///< batch means and autocorrelation time give errors a factor 2.5 apart

@@ -108,6 +108,7 @@ void follow(const Study& study, const Options& options) {
       for (auto& run : live) news = run.update() || news;
       if (news) {
         std::vector<RunResult> results;
+        results.reserve(live.size());
         for (const auto& run : live) results.push_back(run.result());
         write_all(study, results, options);
         if (!options.common.quiet)

@@ -24,10 +24,10 @@ using analysis::SpeciesRule;
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), 0);
-  for (std::size_t i = 0; i < a.size(); ++i) {
+  for (const char letter : a) {
     std::size_t diagonal = row[0]++;
     for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i] != b[j]);
+      const std::size_t replaced = diagonal + (letter != b[j]);
       diagonal = row[j + 1];
       row[j + 1] = std::min({row[j + 1] + 1, row[j] + 1, replaced});
     }
@@ -78,10 +78,9 @@ class Table {
   std::optional<std::string> text(std::string_view name) {
     const auto* node = find(name);
     if (node == nullptr) return std::nullopt;
-    const auto value = node->value<std::string>();
     if (!node->is_string())
       fail(*node, "{}: expected a text, found {}", key(name), found_text(*node));
-    return value;
+    return node->value<std::string>();
   }
 
   std::optional<double> number(std::string_view name) {
@@ -232,7 +231,7 @@ SpeciesRule parse_rule(const Table& table, const toml::node& node, const std::st
   for (const auto& [sign, comparison] : comparisons) {
     const auto at = text.find(sign);
     if (at == text.npos) continue;
-    const auto trim = [](std::string part) {
+    const auto trim = [](const std::string& part) {
       const auto first = part.find_first_not_of(" \t");
       return first == part.npos ? std::string{}
                                 : part.substr(first, part.find_last_not_of(" \t") - first + 1);

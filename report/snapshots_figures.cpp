@@ -95,7 +95,7 @@ void overlay_layers(Canvas& canvas, const Overlay& overlay, const std::string& o
         fmt::format("using 1:2 with lines {}", line));
     if (overlay.arrows[way].empty() || overlay.clusters > most_arrows) continue;
     const std::size_t block =
-        canvas.block("arrows of " + name + " clusters, " + of, overlay.arrows[way]);
+        canvas.block(fmt::format("arrows of {} clusters, {}", name, of), overlay.arrows[way]);
     const double head = 1.3 / canvas.width();
     layers.push_back(Canvas::layer(
         block,

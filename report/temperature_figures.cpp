@@ -202,8 +202,7 @@ Figure temperature_pdf_figure(Runs runs) {
   const RunResult& first = runs[panels.front().curves.front().run];
   const Canvas canvas =
       stacked(panels, exact_axis(0, 1, 5), rounded_axis(0, density.hi, 5), "(T − T₀)/(T₁ − T₀) [-]",
-              "probability density [-]", panels.size() == 1 ? 110 : 110,
-              panels.size() == 1 ? 60 : 42, layers);
+              "probability density [-]", 110, panels.size() == 1 ? 60 : 42, layers);
   return drawn(
       canvas, name, title,
       fmt::format("Distribution of the particles' temperature over the window, T₀ = {} K and "
