@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Hot loops compiled twice, for any x86-64 processor and for those with AVX2; the loader picks. The
-// same bits come out, as -ffp-contract=off keeps products and sums apart. Worth 9 % of the whole
+// same bits come out, as -ffp-contract=off keeps products and sums apart. Worth 8 % of the whole
 // analysis of binary dumps (docs/performance.md).
 #pragma once
 
