@@ -40,7 +40,7 @@ const Form& identify(const std::string& path) {
   const auto head = read_head(path);
   if (head.empty()) throw FormatError("{}: file is empty", path);
   for (const auto* form : forms())
-    if (form->matches(head)) return *form;
+    if (form->matches != nullptr && form->matches(head)) return *form;
   for (const auto& stranger : strangers)
     if (head.starts_with(stranger.begins)) throw FormatError("{}: {}", path, stranger.what);
   if (head.substr(0, 64).find("LIGGGHTS") != head.npos)

@@ -23,6 +23,8 @@ struct Located {
   std::uint64_t offset = 0;     ///< [bytes] of the decompressed file
   std::uint64_t bytes = 0;      ///< length of the snapshot, 0: to the end of the file
   std::shared_ptr<const Checkpoint> checkpoint;  ///< where a gzip file can be entered near `offset`
+  std::shared_ptr<const void>
+      context;  ///< what scan() opened and read() needs again; the form's own
   Box box;
   std::shared_ptr<const std::vector<std::string>> columns;  ///< names as on disk
   /// Names that a Request can use, positions and components of vectors included; null where only
@@ -52,7 +54,9 @@ struct Form {
   std::string_view reference;    ///< where the form is documented
 
   /// Is it this form? `head` holds the first bytes of the (decompressed) file, at most 4096.
-  bool (*matches)(std::string_view head);
+  bool (*matches)(std::string_view head) = nullptr;
+  /// Forms that are a folder as a whole (an OpenFOAM case): is this one? null for forms of files.
+  bool (*matches_folder)(const std::string& folder) = nullptr;
 
   /// Finds the snapshots of a file. `thorough` also makes sure that the last one is complete;
   /// without it only what the headers say is looked at.

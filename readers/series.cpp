@@ -42,16 +42,26 @@ std::vector<std::string> files_of_pattern(const std::string& pattern) {
   return paths;
 }
 
+/// The form that takes the folder as a whole; null where it is a folder of dumps.
+const Form* form_of_folder(const std::string& folder) {
+  for (const auto* form : forms())
+    if (form->matches_folder != nullptr && form->matches_folder(folder)) return form;
+  return nullptr;
+}
+
 }  // namespace
 
 Series Series::open(const std::string& where, const SeriesOptions& options) {
   Series series;
   std::error_code error;
   const auto status = fs::status(where, error);
-  if (fs::is_directory(status))
-    series.open_files(where, files_of_folder(where));
-  else if (fs::exists(status) || where.find_first_of("*?[") == where.npos)
-    series.open_file(where);
+  if (fs::is_directory(status)) {
+    if (const auto* form = form_of_folder(where))
+      series.open_file(where, *form);
+    else
+      series.open_files(where, files_of_folder(where));
+  } else if (fs::exists(status) || where.find_first_of("*?[") == where.npos)
+    series.open_file(where, identify(where));
   else
     series.open_files(where, files_of_pattern(where));
   series.order(options);
@@ -62,8 +72,8 @@ Series Series::open(const std::string& where, const SeriesOptions& options) {
   return series;
 }
 
-void Series::open_file(const std::string& path) {
-  form_ = &identify(path);
+void Series::open_file(const std::string& path, const Form& form) {
+  form_ = &form;
   auto scan = form_->scan(path, true);
   if (!scan.not_particles.empty()) throw FormatError("{}: {}", path, scan.not_particles);
   const auto name = split_name(path);

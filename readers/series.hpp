@@ -63,7 +63,7 @@ class Series {
     Located where;
   };
 
-  void open_file(const std::string& path);
+  void open_file(const std::string& path, const Form& form);
   void open_files(const std::string& where, std::vector<std::string> paths);
   void add(const std::string& path, FileScan scan, std::int64_t step_of_name);
   void note_cut(const std::string& path, const FileScan& scan);
