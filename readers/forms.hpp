@@ -22,6 +22,7 @@ struct Located {
   std::int64_t particles = 0;   ///< as declared
   std::uint64_t offset = 0;     ///< [bytes] of the decompressed file
   std::uint64_t bytes = 0;      ///< length of the snapshot, 0: to the end of the file
+  std::uint64_t line = 0;       ///< in text, the number of its first line; 0: not known
   std::shared_ptr<const Checkpoint> checkpoint;  ///< where a gzip file can be entered near `offset`
   std::shared_ptr<const void>
       context;  ///< what scan() opened and read() needs again; the form's own
@@ -62,6 +63,10 @@ struct Form {
   /// without it only what the headers say is looked at.
   /// Throws FileError, or FormatError where not one snapshot is complete.
   FileScan (*scan)(const std::string& path, bool thorough);
+  /// Goes on with what scan() found in a file that has grown since: from the last snapshot in
+  /// `known`, which may not have been its end. The result is that of a thorough scan(). Null where
+  /// a file holds one snapshot only.
+  FileScan (*extend)(const std::string& path, FileScan known) = nullptr;
   /// Does scan() without `thorough` tell particles from other things in this form?
   bool glance_tells = false;
 

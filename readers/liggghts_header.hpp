@@ -45,8 +45,14 @@ struct Header {
   Box box;
   std::vector<std::string> columns;
   std::uint64_t offset = 0;  // of its first line
+  std::uint64_t line = 0;    // the number of its first line, where next() was told
   std::uint64_t lines = 0;   // up to and with "ITEM: ATOMS"
 };
+
+/// The number of the first line of a header; reads the file where it is not known.
+inline std::uint64_t first_line(const Header& header, const std::string& path) {
+  return header.line != 0 ? header.line : line_at(path, header.offset);
+}
 
 /// Reads the header of a snapshot line by line. The numbers of lines are counted from the
 /// snapshot's first line and turned into the file's only in errors.
@@ -55,8 +61,10 @@ class HeaderReader {
   HeaderReader(ByteWindow& window, const std::string& path) : window_(window), path_(path) {}
 
   /// The next header, or nothing at the end of the file (blank lines are passed over).
-  std::optional<Header> next() {
+  /// `number_of_line`: of its first line, where known; errors then need not count.
+  std::optional<Header> next(std::uint64_t number_of_line = 0) {
     header_ = {};
+    header_.line = number_of_line;
     skip_blank_lines();
     if (!window_.ensure(1)) return std::nullopt;
     header_.offset = window_.offset();
@@ -81,7 +89,7 @@ class HeaderReader {
         if (header_.particles < 0) fail("count is negative: {}", header_.particles);
       } else if (text.starts_with("NUMBER OF ENTRIES") || text.starts_with("NUMBER OF CONTACTS")) {
         throw NotParticles("{}: line {}: a dump local ({}): contacts, not particles", path_,
-                           line_at(path_, header_.offset) + header_.lines - 1, text.substr(10));
+                           line_number(), text.substr(10));
       } else if (text.starts_with("BOX BOUNDS")) {
         read_box(text.substr(10));
       } else if (text.starts_with("ATOMS")) {
@@ -95,12 +103,14 @@ class HeaderReader {
 
   template <class... T>
   [[noreturn]] void fail(fmt::format_string<T...> text, T&&... values) const {
-    const auto line = line_at(path_, header_.offset) + header_.lines - 1;
-    throw FormatError("{}: line {}: {}", path_, line,
+    throw FormatError("{}: line {}: {}", path_, line_number(),
                       fmt::format(text, std::forward<T>(values)...));
   }
 
  private:
+  /// Of the line read last.
+  std::uint64_t line_number() const { return first_line(header_, path_) + header_.lines - 1; }
+
   void skip_blank_lines() {
     while (window_.ensure(1) && (*window_.begin() == '\n' || *window_.begin() == '\r' ||
                                  *window_.begin() == ' ' || *window_.begin() == '\t'))
@@ -110,12 +120,10 @@ class HeaderReader {
   std::string require_line(const char* expected) {
     const auto line = window_.line();
     if (!line)
-      throw CutError("{}: line {}: expected {}, found end of file", path_,
-                     line_at(path_, header_.offset) + header_.lines - 1, expected);
+      throw CutError("{}: line {}: expected {}, found end of file", path_, line_number(), expected);
     ++header_.lines;
     if (!window_.closed())
-      throw CutError("{}: line {}: no line end: file is cut", path_,
-                     line_at(path_, header_.offset) + header_.lines - 1);
+      throw CutError("{}: line {}: no line end: file is cut", path_, line_number());
     return std::string(*line);
   }
 

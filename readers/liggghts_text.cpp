@@ -29,6 +29,7 @@ using namespace liggghts_dump;
 struct Body {
   std::uint64_t lines = 0;  // line ends
   std::uint64_t nul = 0;    // offset of the first NUL byte
+  std::uint64_t lines_before_nul = 0;
   bool has_nul = false;
   bool found_header = false;
   std::string tail;  // bytes after the last line end, at the end of the file
@@ -65,6 +66,9 @@ Body skip_body(ByteWindow& window) {
               std::memchr(window.begin(), 0, static_cast<std::size_t>(stop - window.begin()))) {
         body.has_nul = true;
         body.nul = window.offset(static_cast<const char*>(nul));
+        body.lines_before_nul =
+            body.lines + static_cast<std::uint64_t>(
+                             std::count(window.begin(), static_cast<const char*>(nul), '\n'));
       }
     body.lines += static_cast<std::uint64_t>(std::count(window.begin(), stop, '\n'));
     // What follows the last line end is kept short: one row is all that matters.
@@ -95,15 +99,14 @@ std::int64_t count_words(std::string_view row, std::int64_t limit) {
 }
 
 /// Why the snapshot behind `header` is not whole; empty if it is.
-std::string incompleteness(const std::string& path, const Header& header, const Body& body,
-                           const std::string& gzip_cut) {
+std::string incompleteness(const Header& header, const Body& body, const std::string& gzip_cut) {
   const auto columns = static_cast<std::int64_t>(header.columns.size());
   const auto declared = static_cast<std::uint64_t>(header.particles);
   std::uint64_t rows = body.lines;
+  const auto first_row = header.line + header.lines;
   if (body.has_nul) {
-    const auto first_row = line_at(path, header.offset) + header.lines;
-    const auto line = line_at(path, body.nul);
-    if (line - first_row < declared) return fmt::format("line {}: NUL byte", line);
+    if (body.lines_before_nul < declared)
+      return fmt::format("line {}: NUL byte", first_row + body.lines_before_nul);
     return {};
   }
   const bool open_row = body.tail.find_first_not_of(" \t\r") != std::string::npos;
@@ -111,7 +114,7 @@ std::string incompleteness(const std::string& path, const Header& header, const 
       count_words(body.tail, columns + 1) == columns)
     ++rows;
   if (rows >= declared) return {};
-  const auto line = line_at(path, header.offset) + header.lines + rows;
+  const auto line = first_row + rows;
   if (!gzip_cut.empty())
     return fmt::format("{}: {} declared, {} present", gzip_cut, declared, rows);
   if (open_row) {
@@ -133,6 +136,7 @@ Located locate(const Header& header, std::shared_ptr<const std::vector<std::stri
   located.time = header.time;
   located.particles = header.particles;
   located.offset = header.offset;
+  located.line = header.line;
   located.box = header.box;
   located.columns = columns;
   located.parts = std::move(columns);
@@ -166,36 +170,47 @@ std::optional<Located> glance(const std::string& path) {
   return locate(*header, std::make_shared<const std::vector<std::string>>(header->columns));
 }
 
-FileScan find_snapshots(const std::string& path, bool thorough) {
+void note_order(FileScan& found) {
+  for (std::size_t i = 1; i < found.snapshots.size(); ++i)
+    if (found.snapshots[i].step < found.snapshots[i - 1].step)
+      found.problems.push_back(fmt::format("steps are not in order: {} then {}; sorted by step",
+                                           found.snapshots[i - 1].step, found.snapshots[i].step));
+}
+
+/// Every snapshot of the file; where some are known, from the last of these on.
+FileScan find_snapshots(const std::string& path, FileScan known = {}) {
   FileScan found;
-  if (!thorough) {
-    if (auto located = glance(path)) {
-      found.snapshots.push_back(std::move(*located));
-      return found;
-    }
-  }
+  found.snapshots = std::move(known.snapshots);
   Source source(path);
   if (source.size_bound() == 0) throw FormatError("{}: file is empty", path);
+  std::shared_ptr<const std::vector<std::string>> columns;
+  std::uint64_t line = 0;  // the first snapshot's is told by what stands before it
+  if (!found.snapshots.empty()) {
+    columns = found.snapshots.back().columns;
+    line = found.snapshots.back().line;
+    source.seek(found.snapshots.back().offset);
+    found.snapshots.pop_back();
+  }
   std::vector<char> buffer;
   ByteWindow window(source, buffer);
   HeaderReader headers(window, path);
-  std::shared_ptr<const std::vector<std::string>> columns;
   std::vector<std::pair<std::uint64_t, std::shared_ptr<const Checkpoint>>> entries;  // of gzip
   while (true) {
     std::optional<Header> header;
     try {
-      header = headers.next();
+      header = headers.next(line);
     } catch (const CutError& error) {
       if (found.snapshots.empty()) throw;
       found.cut = std::string(error.what()).substr(path.size() + 2);
       break;
     }
     if (!header) break;
+    header->line = first_line(*header, path);
     if (columns == nullptr || *columns != header->columns)
       columns = std::make_shared<const std::vector<std::string>>(header->columns);
     const auto body = skip_body(window);
     if (!body.found_header) {
-      const auto why = incompleteness(path, *header, body, source.cut());
+      const auto why = incompleteness(*header, body, source.cut());
       if (!why.empty()) {
         if (found.snapshots.empty()) throw CutError("{}: {}", path, why);
         found.cut = fmt::format("snapshot {}: {}", header->step, why);
@@ -206,23 +221,22 @@ FileScan find_snapshots(const std::string& path, bool thorough) {
     located.bytes = window.offset() - header->offset;
     for (const auto& [offset, entry] : entries)
       if (offset <= located.offset) located.checkpoint = entry;
-    if (!found.snapshots.empty() && located.step < found.snapshots.back().step)
-      found.problems.push_back(fmt::format("steps are not in order: {} then {}; sorted by step",
-                                           found.snapshots.back().step, located.step));
     found.snapshots.push_back(std::move(located));
     if (!body.found_header && is_cut_item(body.tail))
       found.cut = fmt::format("line {}: expected another snapshot, found {} and end of file",
-                              line_at(path, window.offset()), quote(body.tail));
+                              header->line + header->lines + body.lines, quote(body.tail));
     if (body.has_nul && !body.found_header)
       found.cut = fmt::format(
           "line {} (offset {}): NUL bytes after the last row (file system lost the tail?)",
-          line_at(path, body.nul), body.nul);
+          header->line + header->lines + body.lines_before_nul, body.nul);
     if (!body.found_header) break;
+    line = header->line + header->lines + body.lines;
     if (source.compressed() &&
         (entries.empty() || source.position() > entries.back().first + 4 * ByteWindow::piece))
       entries.emplace_back(source.position(), source.checkpoint());
   }
   if (found.snapshots.empty()) throw FormatError("{}: no \"ITEM:\" found", path);
+  note_order(found);
   if (found.cut.empty()) found.cut = source.cut();
   if (!source.trailing().empty()) found.problems.push_back(source.trailing());
   return found;
@@ -230,7 +244,13 @@ FileScan find_snapshots(const std::string& path, bool thorough) {
 
 FileScan scan(const std::string& path, bool thorough) {
   try {
-    return find_snapshots(path, thorough);
+    if (!thorough)
+      if (auto located = glance(path)) {
+        FileScan found;
+        found.snapshots.push_back(std::move(*located));
+        return found;
+      }
+    return find_snapshots(path);
   } catch (const NotParticles& what) {
     FileScan found;
     found.not_particles = std::string(what.what()).substr(path.size() + 2);
@@ -238,10 +258,14 @@ FileScan scan(const std::string& path, bool thorough) {
   }
 }
 
+FileScan extend(const std::string& path, FileScan known) {
+  return find_snapshots(path, std::move(known));
+}
+
 /// Says what is wrong with a row that could not be read.
 [[noreturn]] void explain_row(const std::string& path, const Header& header, std::string_view row,
                               std::uint64_t row_index, const ColumnPlan& plan) {
-  const auto line = line_at(path, header.offset) + header.lines + row_index;
+  const auto line = first_line(header, path) + header.lines + row_index;
   const auto columns = static_cast<std::int64_t>(header.columns.size());
   if (row.find('\0') != row.npos) throw FormatError("{}: line {}: NUL byte", path, line);
   if (row.starts_with("ITEM:"))
@@ -250,7 +274,7 @@ FileScan scan(const std::string& path, bool thorough) {
   const auto words = count_words(row, std::int64_t{1} << 40);
   if (words != columns)
     throw FormatError("{}: line {}: {} values expected (line {}), {} found", path, line, columns,
-                      line_at(path, header.offset) + header.lines - 1, words);
+                      first_line(header, path) + header.lines - 1, words);
   std::string_view rest = row;
   for (int column = 0; column < columns; ++column) {
     const auto word = next_word(rest);
@@ -307,7 +331,7 @@ void compare_twins(const std::string& path, const Header& header, const ColumnPl
       const double a = raw[static_cast<std::size_t>(first)][row];
       const double b = raw[static_cast<std::size_t>(second)][row];
       if (a == b || (a != a && b != b)) continue;
-      const auto line = line_at(path, header.offset) + header.lines;
+      const auto line = first_line(header, path) + header.lines;
       const auto column = static_cast<std::size_t>(plan.parse[static_cast<std::size_t>(first)]);
       throw FormatError(
           "{}: line {}: column \"{}\" twice with different values (line {}: {} and {})", path,
@@ -315,19 +339,24 @@ void compare_twins(const std::string& path, const Header& header, const ColumnPl
     }
 }
 
+/// As much of the next snapshot as tells that it begins here. No more is read of it, so what a
+/// snapshot costs does not depend on what follows.
+constexpr std::uint64_t next_header = 64;  // bytes
+
 void read(const std::string& path, const Located& where, const Request& request, Snapshot& out,
           Scratch& scratch) {
   Source source(path);
   source.resume(where.checkpoint);
   source.seek(where.offset);
+  if (where.bytes != 0) source.stop_at(where.offset + where.bytes + next_header);
   ByteWindow window(source, scratch.bytes);
   HeaderReader headers(window, path);
-  const auto header = headers.next();
+  const auto header = headers.next(where.line);
   if (!header || header->step != where.step || header->particles != where.particles)
     throw FormatError("{}: offset {}: the file has changed since it was opened", path,
                       where.offset);
   const auto names_at = [&] {
-    return fmt::format("{}: line {}", path, line_at(path, header->offset) + header->lines - 1);
+    return fmt::format("{}: line {}", path, first_line(*header, path) + header->lines - 1);
   };
   ColumnPlan plan;
   try {
@@ -363,7 +392,7 @@ void read(const std::string& path, const Located& where, const Request& request,
       // Without a line end only the blank that LIGGGHTS writes tells that the last number is whole.
       if (window.size() == 0 || end[-1] != ' ')
         throw FormatError("{}: after line {}: {} declared, {} present", path,
-                          line_at(path, header->offset) + header->lines + row - 1, declared, row);
+                          first_line(*header, path) + header->lines + row - 1, declared, row);
     }
     // All whole lines of the window, before it moves on.
     const char* at = window.begin();
@@ -372,7 +401,7 @@ void read(const std::string& path, const Located& where, const Request& request,
       if (!rows.read(at, end, row)) {
         if (end == window.end())
           throw FormatError("{}: line {}: no line end: file is cut", path,
-                            line_at(path, header->offset) + header->lines + row);
+                            first_line(*header, path) + header->lines + row);
         explain_row(path, *header, {at, static_cast<std::size_t>(end - at)}, row, plan);
       }
       ++row;
@@ -394,7 +423,7 @@ void read(const std::string& path, const Located& where, const Request& request,
           "file by itself",
           path, window.offset(), declared, header->step);
     throw FormatError("{}: line {}: {} particles declared, more rows found", path,
-                      line_at(path, header->offset) + header->lines + row, declared);
+                      first_line(*header, path) + header->lines + row, declared);
   }
   out.particles = declared;
   out.bytes_read = source.bytes_from_disk();
@@ -409,8 +438,9 @@ std::string place(const std::string& path, const Located& where, std::size_t row
   source.seek(where.offset);
   std::vector<char> buffer;
   ByteWindow window(source, buffer, 1U << 14);
-  const auto header = HeaderReader(window, path).next();
-  return fmt::format("line {}", line_at(path, where.offset) + (header ? header->lines : 0) + row);
+  const auto header = HeaderReader(window, path).next(where.line);
+  if (!header) return "the end";
+  return fmt::format("line {}", first_line(*header, path) + header->lines + row);
 }
 
 bool matches(std::string_view head) {
@@ -428,6 +458,7 @@ constinit const Form liggghts_text{
     .reference = "https://www.cfdem.com/media/DEM/docu/dump.html",
     .matches = matches,
     .scan = scan,
+    .extend = extend,
     .glance_tells = true,
     .read = read,
     .place = place,

@@ -49,6 +49,10 @@ const Form* form_of_folder(const std::string& folder) {
   return nullptr;
 }
 
+FileScan scan_file(const Form& form, const std::string& path, bool thorough, DumpIndex* index) {
+  return index != nullptr ? index->scan(form, path, thorough) : form.scan(path, thorough);
+}
+
 }  // namespace
 
 Series Series::open(const std::string& where, const SeriesOptions& options) {
@@ -57,13 +61,13 @@ Series Series::open(const std::string& where, const SeriesOptions& options) {
   const auto status = fs::status(where, error);
   if (fs::is_directory(status)) {
     if (const auto* form = form_of_folder(where))
-      series.open_file(where, *form);
+      series.open_file(where, *form, options.index);
     else
-      series.open_files(where, files_of_folder(where));
+      series.open_files(where, files_of_folder(where), options.index);
   } else if (fs::exists(status) || where.find_first_of("*?[") == where.npos)
-    series.open_file(where, identify(where));
+    series.open_file(where, identify(where), options.index);
   else
-    series.open_files(where, files_of_pattern(where));
+    series.open_files(where, files_of_pattern(where), options.index);
   series.order(options);
   series.compare_snapshots();
   const auto& first = series.entries_.front().where;
@@ -72,9 +76,9 @@ Series Series::open(const std::string& where, const SeriesOptions& options) {
   return series;
 }
 
-void Series::open_file(const std::string& path, const Form& form) {
+void Series::open_file(const std::string& path, const Form& form, DumpIndex* index) {
   form_ = &form;
-  auto scan = form_->scan(path, true);
+  auto scan = scan_file(*form_, path, true, index);
   if (!scan.not_particles.empty()) throw FormatError("{}: {}", path, scan.not_particles);
   const auto name = split_name(path);
   const auto step = name.numbers.empty() ? std::nullopt : to_step(name.numbers.back());
@@ -82,7 +86,8 @@ void Series::open_file(const std::string& path, const Form& form) {
   add(path, std::move(scan), step.value_or(0));
 }
 
-void Series::open_files(const std::string& where, std::vector<std::string> paths) {
+void Series::open_files(const std::string& where, std::vector<std::string> paths,
+                        DumpIndex* index) {
   auto folder = sort_out(where, std::move(paths));
   form_ = folder.form;
   left_out_ = std::move(folder.left_out);
@@ -90,7 +95,7 @@ void Series::open_files(const std::string& where, std::vector<std::string> paths
   parts_ = std::move(folder.parts);
   for (const auto& file : folder.files) {
     try {
-      auto scan = form_->scan(file.path, file.last);
+      auto scan = scan_file(*form_, file.path, file.last, index);
       if (!scan.cut.empty() && !file.last) throw FormatError("{}: {}", file.path, scan.cut);
       note_cut(file.path, scan);
       if (scan.snapshots.size() == 1 && scan.cut.empty() && scan.snapshots[0].step != no_step)

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "readers/dump_folder.hpp"
+#include "readers/dump_index.hpp"
 #include "readers/forms.hpp"
 
 namespace bedscope::readers {
@@ -15,6 +16,7 @@ enum class Repeated { refuse, first, last };
 
 struct SeriesOptions {
   Repeated repeated = Repeated::refuse;
+  DumpIndex* index = nullptr;  ///< of all-in-one dumps looked at before
 };
 
 /// A series of particle snapshots. Opening it looks at the headers only, and makes sure that the
@@ -63,8 +65,8 @@ class Series {
     Located where;
   };
 
-  void open_file(const std::string& path, const Form& form);
-  void open_files(const std::string& where, std::vector<std::string> paths);
+  void open_file(const std::string& path, const Form& form, DumpIndex* index);
+  void open_files(const std::string& where, std::vector<std::string> paths, DumpIndex* index);
   void add(const std::string& path, FileScan scan, std::int64_t step_of_name);
   void note_cut(const std::string& path, const FileScan& scan);
   void judge_name(const DumpFile& file, const Located& located);

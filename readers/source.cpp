@@ -52,6 +52,7 @@ struct Source::Impl {
   std::uint64_t size = 0;  // on disk
   std::uint64_t position = 0;
   std::uint64_t bytes_read = 0;
+  std::uint64_t stop = ~std::uint64_t{0};
   bool compressed = false;
   std::string cut, trailing;
 
@@ -179,6 +180,8 @@ Source::Source(const std::string& path) : impl_(std::make_unique<Impl>()) {
 Source::~Source() = default;
 
 std::size_t Source::read(std::span<char> into) {
+  if (impl_->position >= impl_->stop) return 0;
+  into = into.first(std::min<std::uint64_t>(into.size(), impl_->stop - impl_->position));
   const auto got = impl_->compressed ? impl_->inflate_into(into.data(), into.size())
                                      : impl_->read_disk(into.data(), into.size());
   impl_->position += got;
@@ -198,6 +201,8 @@ void Source::seek(std::uint64_t offset) {
     if (read({skipped.data(), static_cast<std::size_t>(ask)}) < ask) return;
   }
 }
+
+void Source::stop_at(std::uint64_t offset) { impl_->stop = offset; }
 
 std::shared_ptr<const Checkpoint> Source::checkpoint() const {
   if (!impl_->compressed || impl_->stream_ended) return nullptr;

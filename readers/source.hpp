@@ -30,6 +30,9 @@ class Source {
   /// back), unless a checkpoint is nearer.
   void seek(std::uint64_t offset);
 
+  /// Reads nothing behind `offset`, as if the file ended there.
+  void stop_at(std::uint64_t offset);
+
   /// The state of the decompression at position(), 40 kB, to jump back to later from any Source of
   /// the same file; null for plain files, which need none.
   std::shared_ptr<const Checkpoint> checkpoint() const;
