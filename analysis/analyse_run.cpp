@@ -10,7 +10,7 @@
 #include <optional>
 #include <thread>
 
-#include "analysis/run_sums.hpp"
+#include "analysis/kept_run.hpp"
 #include "readers/error.hpp"
 
 namespace bedscope::analysis {
@@ -127,104 +127,167 @@ std::vector<double> weights_of(const RunSetup& setup, const IndexRange& window) 
   return weights;
 }
 
-void keep_frames(const RunSetup& setup, const readers::Series& series, RunResult& result) {
-  const auto count = std::min(result.window.snapshots, most_frames);
+/// Some snapshots of the window, evenly spread; those at hand are not read again.
+std::vector<Frame> choose_frames(const RunSetup& setup, const readers::Series& series,
+                                 const Window& window, const KeptRun& kept) {
+  std::vector<Frame> frames;
+  const auto count = std::min(window.snapshots, most_frames);
   Item item;
   for (std::size_t k = 0; k < count; ++k) {
-    const auto i =
-        result.window.first + (count == 1 ? 0 : k * (result.window.snapshots - 1) / (count - 1));
-    make_product(setup, series, i, item.product, item.scratch);
-    result.frames.push_back({i, setup.times[i], item.product.holdup});
+    const auto i = window.first + (count == 1 ? 0 : k * (window.snapshots - 1) / (count - 1));
+    const auto found = std::find_if(kept.frames.begin(), kept.frames.end(),
+                                    [i](const Frame& frame) { return frame.snapshot == i; });
+    if (found != kept.frames.end()) {
+      frames.push_back(*found);
+    } else if (kept.whole.last && kept.whole.last->snapshot == i) {
+      frames.push_back({i, setup.times[i], kept.whole.last->holdup});
+    } else {
+      make_product(setup, series, i, item.product, item.scratch);
+      frames.push_back({i, setup.times[i], item.product.holdup});
+    }
   }
+  return frames;
 }
+
+/// A state larger than this serves only where it is smaller than the dumps.
+constexpr std::uint64_t small_state = std::uint64_t{16} << 20;  // bytes
 
 }  // namespace
 
 struct LiveAnalysis::State {
   RunSettings settings;
   AnalysisOptions options;
+  readers::DumpIndex index;
   std::optional<readers::Series> series;
   std::unique_ptr<RunSetup> setup;  // RunSums keep a pointer to it
-  std::optional<RunSums> sums;      // of the snapshots whose weights are final: all but the last
+  std::optional<KeptRun> kept;
   RunResult result;
+  bool up_to_date = false;  // result is that of series
   double seconds = 0;
   bool live = true;  // update() will be called again
 
+  State(RunSettings asked, AnalysisOptions how)
+      : settings(std::move(asked)),
+        options(std::move(how)),
+        index(options.keep.earlier_index, options.keep.index) {}
+
   bool is_auto() const { return !settings.average.has_value(); }
-
-  void begin() {
-    setup = std::make_unique<RunSetup>(set_up(settings, *series));
-    sums.emplace(*setup, is_auto(), options.pictures);
-  }
-
-  /// Whether the snapshots that were added are still the first ones of the series; one that came
-  /// late, in the middle, means to begin anew.
-  bool continues(const readers::Series& found) const {
-    if (!sums || found.size() <= sums->snapshots()) return false;
-    for (std::size_t i = 0; i < sums->snapshots(); ++i)
-      if (found.step(i) != series->step(i)) return false;
-    return true;
+  bool goes_on() const { return live || !options.keep.state.empty(); }
+  void note(const std::string& text) const {
+    if (options.note) options.note(text);
   }
 
   bool update() {
     const auto started = std::chrono::steady_clock::now();
-    auto found = readers::Series::open(settings.particles, {settings.repeated});
-    const bool first_time = !series.has_value();
-    if (!first_time && same_steps(found, *series)) return false;
-    const bool goes_on = !first_time && continues(found);
+    auto found = readers::Series::open(settings.particles, {settings.repeated, &index});
+    if (up_to_date && same_steps(found, *series)) return false;
+    up_to_date = false;
     series.emplace(std::move(found));
-    if (goes_on)
-      update_times(*setup, *series);
-    else
-      begin();
+    begin();
+    bool news = false;
+    Window window;
     if (is_auto() && !evenly_spaced(setup->times)) {
-      uneven_auto();
+      // The weight of a snapshot depends on where the window begins, so the run is read twice: once
+      // to choose the window, once to average over it.
+      window =
+          add_all(kept->whole, weights_of(*setup, {0, setup->times.size()}), news).choose_window();
+      setup->settings.average = {setup->times[window.first], setup->times.back()};
+      const auto weights = weights_of(*setup, window_of(*setup));
+      result = add_all(kept->window, weights, news).finish(*series, window);
+      result.snapshots_kept = std::min(kept->whole.read_from, kept->window.read_from);
+      setup->settings.average.reset();
     } else {
       const auto range = window_of(*setup);
-      Window window{.first = range.first, .snapshots = range.count};
-      auto complete = add_all(weights_of(*setup, range));
+      window = {.first = range.first, .snapshots = range.count};
+      auto complete = add_all(kept->whole, weights_of(*setup, range), news);
       if (is_auto()) window = complete.choose_window();
       result = std::move(complete).finish(*series, window);
+      result.snapshots_kept = kept->whole.read_from;
     }
     result.label = settings.label;
     result.inputs = series->files();
-    if (options.pictures) keep_frames(*setup, *series, result);
+    if (options.pictures) {
+      result.frames = choose_frames(*setup, *series, result.window, *kept);
+      kept->frames = result.frames;
+    }
+    if (news) save();
     seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
     result.seconds = seconds;
-    return true;
+    return up_to_date = true;
+  }
+
+  /// The setup of today, and what was kept as far as it fits.
+  void begin() {
+    auto now = set_up(settings, *series);
+    if (setup) {
+      *setup = std::move(now);
+    } else {
+      setup = std::make_unique<RunSetup>(std::move(now));
+      kept.emplace(*setup, is_auto(), options.pictures);
+      load();
+    }
+    const auto why =
+        kept->adapt(fingerprint_of(*setup, options.pictures), mark_of(*series, *setup));
+    if (!why.empty()) note(fmt::format("run \"{}\" begins anew: {}", settings.label, why));
+  }
+
+  void load() {
+    std::error_code ignored;
+    const auto& path = options.keep.earlier_state;
+    if (path.empty() || !std::filesystem::exists(path, ignored)) return;
+    try {
+      kept->load(path);
+    } catch (const Error& error) {
+      kept.emplace(*setup, is_auto(), options.pictures);
+      note(fmt::format("run \"{}\" begins anew: {}", settings.label, error.what()));
+    }
+  }
+
+  void save() {
+    try {
+      index.save();
+      const auto& path = options.keep.state;
+      if (path.empty()) return;
+      const auto size = kept->save(path);
+      std::error_code ignored;
+      if (size > small_state && size > result.bytes_read) std::filesystem::remove(path, ignored);
+    } catch (const FileError& error) {
+      std::error_code ignored;
+      std::filesystem::remove(options.keep.state, ignored);
+      note(fmt::format("{}: the next analysis will read all dumps again", error.what()));
+    }
   }
 
   /// Adds what is new; the last snapshot, whose weight a successor would change, only to the copy
   /// that is returned.
-  RunSums add_all(const std::vector<double>& weights) {
+  RunSums add_all(Pass& pass, const std::vector<double>& weights, bool& news) {
+    if (!pass.sums) pass.begin();
+    if (!pass.sums->added_with(weights)) {
+      note(fmt::format("run \"{}\" begins anew: the window has moved", settings.label));
+      pass.begin();
+    }
     const std::size_t all = series->size();
     std::optional<RunSums> complete;
-    for_each_product(*setup, *series, sums->snapshots(), all, threads(),
-                     [&](SnapshotProduct& product) {
-                       const auto i = product.snapshot;
-                       if (i + 1 == all) {
-                         if (live)
-                           complete.emplace(*sums);
-                         else
-                           complete.emplace(std::move(*sums));
-                       }
-                       (complete ? *complete : *sums).add(product, weights[i]);
-                       if (options.progress) options.progress(i + 1, all);
-                     });
+    const auto take = [&](SnapshotProduct& product) {
+      const auto i = product.snapshot;
+      if (i + 1 == all && goes_on()) {
+        pass.last = product;
+        pass.last->slots.resize(product.used);
+        complete.emplace(*pass.sums);
+      } else if (i + 1 == all) {
+        complete.emplace(std::move(*pass.sums));
+      }
+      (complete ? *complete : *pass.sums).add(product, weights[i]);
+      if (options.progress) options.progress(i + 1, all);
+    };
+    if (auto last = std::exchange(pass.last, std::nullopt);
+        last && last->snapshot == pass.snapshots() && ids_wanted(last->snapshot, all))
+      take(*last);
+    const auto first = pass.snapshots() + (complete ? 1 : 0);
+    pass.read_from = std::min(pass.read_from, first);
+    news = news || first < all;
+    for_each_product(*setup, *series, first, all, threads(), take);
     return std::move(*complete);
-  }
-
-  /// With uneven spacing the weight of a snapshot depends on where the window begins, so the run is
-  /// read twice: once to choose the window, once to average over it.
-  void uneven_auto() {
-    sums.emplace(*setup, true, options.pictures);
-    const auto window = add_all(weights_of(*setup, {0, setup->times.size()})).choose_window();
-    setup->settings.average = {setup->times[window.first], setup->times.back()};
-    const auto range = window_of(*setup);
-    sums.emplace(*setup, false, options.pictures);
-    result = add_all(weights_of(*setup, range)).finish(*series, window);
-    setup->settings.average.reset();
-    sums.emplace(*setup, true, options.pictures);
   }
 
   int threads() const {
@@ -234,19 +297,14 @@ struct LiveAnalysis::State {
 };
 
 LiveAnalysis::LiveAnalysis(RunSettings settings, AnalysisOptions options)
-    : state_(std::make_unique<State>()) {
-  state_->settings = std::move(settings);
-  state_->options = std::move(options);
-}
+    : state_(std::make_unique<State>(std::move(settings), std::move(options))) {}
 LiveAnalysis::~LiveAnalysis() = default;
 LiveAnalysis::LiveAnalysis(LiveAnalysis&&) noexcept = default;
 bool LiveAnalysis::update() { return state_->update(); }
 const RunResult& LiveAnalysis::result() const { return state_->result; }
 
 RunResult analyse_run(const RunSettings& settings, const AnalysisOptions& options) {
-  LiveAnalysis::State state;
-  state.settings = settings;
-  state.options = options;
+  LiveAnalysis::State state(settings, options);
   state.live = false;
   state.update();
   return std::move(state.result);

@@ -34,6 +34,12 @@ struct WeightedSum {
   }
 };
 
+template <class Archive>
+void archive(Archive& ar, WeightedSum& sum) {
+  auto& [weight, slots] = sum;
+  ar(weight, slots);
+}
+
 /// Sums of a series in leaves of 2^k consecutive snapshots, aligned to the index in the series.
 /// When there are more than `limit`, pairs of neighbours merge and k grows, so that memory stays
 /// bounded. Whatever was merged early is what the tree over all indices would merge: the total has
@@ -74,13 +80,24 @@ class Leaves {
     return root.empty() ? WeightedSum{} : std::move(root.begin()->second);
   }
 
+  /// Into and out of one of the same powers and limit.
+  template <class Archive>
+  void archive(Archive& ar) {
+    ar(power_, nodes_, open_, sum_);
+  }
+
  private:
   static constexpr std::size_t none = ~std::size_t{0};
   /// The sum over the snapshots number * 2^power ... (number + 1) * 2^power - 1.
   struct Node {
-    int power;
-    std::size_t number;
+    int power = 0;
+    std::size_t number = 0;
     WeightedSum sum;
+
+    template <class Archive>
+    void archive(Archive& ar) {
+      ar(power, number, sum);
+    }
   };
 
   /// The open leaf is whole: it becomes a node, and merges with its sibling as far as leaves go.

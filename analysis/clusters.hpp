@@ -15,6 +15,12 @@ struct ClusterImage {
   std::vector<int> labels;        ///< a cell: 0, or Cluster::cluster; cells[lateral] x cells[up]
 };
 
+template <class Archive>
+void archive(Archive& ar, ClusterImage& image) {
+  auto& [clusters, labels] = image;
+  ar(clusters, labels);
+}
+
 /// The clusters of one snapshot: 8-connected regions of holdup > threshold with an area of at least
 /// min_area (an exact multiple of the cell counts as reached: 1e-9 relative) and a cell > core.
 ///

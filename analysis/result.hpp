@@ -64,9 +64,21 @@ struct OccurrenceSample {
   double area_fraction = 0;  ///< of the domain's front area [-]
 };
 
+template <class Archive>
+void archive(Archive& ar, OccurrenceSample& sample) {
+  auto& [time, clusters, area_fraction] = sample;
+  ar(time, clusters, area_fraction);
+}
+
 struct Point {
   double x = 0, z = 0;  ///< lateral, up [m]
 };
+
+template <class Archive>
+void archive(Archive& ar, Point& point) {
+  auto& [x, z] = point;
+  ar(x, z);
+}
 
 /// A cluster in one snapshot (Carlos Varas et al. 2016 in its three thresholds).
 struct Cluster {
@@ -86,12 +98,26 @@ struct Cluster {
   std::vector<std::vector<Point>> contours;  ///< closed polylines along cell faces [m]
 };
 
+template <class Archive>
+void archive(Archive& ar, Cluster& c) {
+  auto& [snapshot, time, cluster, track, centre, area, holdup, holdup_max, velocity_x, velocity_z,
+         track_velocity_x, track_velocity_z, major, minor, angle, parents, contours] = c;
+  ar(snapshot, time, cluster, track, centre, area, holdup, holdup_max, velocity_x, velocity_z,
+     track_velocity_x, track_velocity_z, major, minor, angle, parents, contours);
+}
+
 /// One snapshot kept whole for the strip of snapshots.
 struct Frame {
   std::size_t snapshot = 0;    ///< index into RunResult::occurrence
   double time = 0;             ///< [s]
   std::vector<double> holdup;  ///< depth-averaged, cells[lateral] x cells[up], lateral fastest
 };
+
+template <class Archive>
+void archive(Archive& ar, Frame& frame) {
+  auto& [snapshot, time, holdup] = frame;
+  ar(snapshot, time, holdup);
+}
 
 /// The averaging window.
 struct Window {
@@ -108,6 +134,12 @@ struct ClusterThresholds {
   double core = 0.4;        ///< holdup somewhere above [-]
   double min_area = 60e-6;  ///< [m2]
 };
+
+template <class Archive>
+void archive(Archive& ar, ClusterThresholds& thresholds) {
+  auto& [threshold, core, min_area] = thresholds;
+  ar(threshold, core, min_area);
+}
 
 struct RunResult {
   std::string label;
@@ -137,7 +169,8 @@ struct RunResult {
   Estimate bed_voidage;      ///< 1 - solids / bed volume, the bed being twice the mean height [-]
   double independent_samples = 0;  ///< of the mean holdup
   double outside_fraction = 0;     ///< share of the solids volume outside the domain, in the window
-  std::uint64_t bytes_read = 0;
+  std::uint64_t bytes_read = 0;    ///< for all its snapshots, now or by an earlier analysis
+  std::size_t snapshots_kept = 0;  ///< so many were not read again: an earlier analysis kept them
   double seconds = 0;
   std::vector<std::string> inputs;    ///< files read, for the hash in the summary
   std::vector<std::string> problems;  ///< one line each, for people

@@ -82,6 +82,12 @@ void RunSums::add(SnapshotProduct& product, double weight) {
   bytes_read_ += product.bytes_read;
 }
 
+bool RunSums::added_with(const std::vector<double>& weights) const {
+  if (samples_.size() > weights.size()) return false;
+  return std::equal(samples_.begin(), samples_.end(), weights.begin(),
+                    [](const Sample& sample, double weight) { return sample.weight == weight; });
+}
+
 /// Of each slot [kg/m3]: mass over volume of all its particles in all snapshots.
 std::vector<double> RunSums::densities() const {
   std::vector<double> mass(slots_.size(), 0), volume(slots_.size(), 0);

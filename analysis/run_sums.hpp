@@ -33,15 +33,37 @@ class RunSums {
   /// Uses itself up: short series move into the result.
   RunResult finish(const readers::Series& series, const Window& window) &&;
 
+  /// Whether the snapshots that it holds were added with these weights.
+  bool added_with(const std::vector<double>& weights) const;
+
+  /// Into and out of one of the same setup: see readers/archive.hpp. What add() changes is here, so
+  /// that an analysis can go on where an earlier one ended; tests/analysis/resume_test.cpp finds
+  /// what is missing, given dumps that show it.
+  template <class Archive>
+  void archive(Archive& ar) {
+    ar(slots_, fields_, profiles_, histograms_, samples_, occurrence_, clusters_, tracker_, flaws_,
+       without_temperature_, bytes_read_);
+  }
+
  private:
   struct SlotSample {
     SolidsSum solids;
     TemperatureSum temperature;
+
+    template <class Archive>
+    void archive(Archive& ar) {
+      ar(solids, temperature);
+    }
   };
   struct Sample {
     std::vector<SlotSample> slots;  // by number of the slot; later ones are zero
     double volume = 0, volume_inside = 0, temperature_zero = 0;
     double weight = 0;
+
+    template <class Archive>
+    void archive(Archive& ar) {
+      ar(slots, volume, volume_inside, temperature_zero, weight);
+    }
   };
   /// A name, and the slots whose sum it is.
   struct Species {

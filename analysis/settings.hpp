@@ -27,6 +27,12 @@ struct ByType {
   }
 };
 
+template <class Archive>
+void archive(Archive& ar, ByType& values) {
+  auto& [all, of_type] = values;
+  ar(all, of_type);
+}
+
 /// A species by a rule on a column: `active = "q > 0"`.
 struct SpeciesRule {
   enum class Comparison { less, less_equal, greater, greater_equal, equal, not_equal };
@@ -52,6 +58,12 @@ struct SpeciesRule {
     }
   }
 };
+
+template <class Archive>
+void archive(Archive& ar, SpeciesRule& rule) {
+  auto& [name, column, comparison, value] = rule;
+  ar(name, column, comparison, value);
+}
 
 /// Axes are numbered 0 x, 1 y, 2 z here; vectors of the domain are in that order too.
 struct RunSettings {

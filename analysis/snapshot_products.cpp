@@ -267,14 +267,12 @@ void reduce(const RunSetup& setup, SnapshotProduct& out, ProductScratch& scratch
   }
 }
 
-/// Doubled ids are a flaw of the whole series (pieces counted twice), so a sample shows them; the
-/// column is not read for the others.
+}  // namespace
+
 bool ids_wanted(std::size_t i, std::size_t snapshots) {
   constexpr std::size_t sample = 16;
   return i % sample == 0 || i + 1 == snapshots;
 }
-
-}  // namespace
 
 void make_product(const RunSetup& setup, const readers::Series& series, std::size_t i,
                   SnapshotProduct& out, ProductScratch& scratch) {

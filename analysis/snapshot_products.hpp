@@ -19,6 +19,12 @@ struct SlotKey {
   bool operator==(const SlotKey&) const = default;
 };
 
+template <class Archive>
+void archive(Archive& ar, SlotKey& key) {
+  auto& [type, rule] = key;
+  ar(type, rule);
+}
+
 /// Sums over solids, wherever they are: in the domain or beside it.
 struct SolidsSum {
   std::int64_t particles = 0;  ///< those without a size included
@@ -42,6 +48,12 @@ struct SolidsSum {
     return *this;
   }
 };
+
+template <class Archive>
+void archive(Archive& ar, SolidsSum& sum) {
+  auto& [particles, volume, moment, mass, mass_moment] = sum;
+  ar(particles, volume, moment, mass, mass_moment);
+}
 
 /// Sums over temperatures less T0, that of the snapshot's first particle, so that the spread does
 /// not drown in the squares of absolute temperatures.
@@ -68,6 +80,12 @@ struct TemperatureSum {
   }
 };
 
+template <class Archive>
+void archive(Archive& ar, TemperatureSum& s) {
+  auto& [particles, sum, squares, coldest, hottest] = s;
+  ar(particles, sum, squares, coldest, hottest);
+}
+
 /// What the particles of one slot give in one snapshot.
 struct SlotProduct {
   SlotKey key;
@@ -77,6 +95,12 @@ struct SlotProduct {
   TemperatureSum temperature;
   std::vector<double> histogram;  ///< particles a bin, inside the PDF's range
 };
+
+template <class Archive>
+void archive(Archive& ar, SlotProduct& slot) {
+  auto& [key, fields, profiles, solids, temperature, histogram] = slot;
+  ar(key, fields, profiles, solids, temperature, histogram);
+}
 
 struct SnapshotProduct {
   std::size_t snapshot = 0;
@@ -92,6 +116,15 @@ struct SnapshotProduct {
   std::exception_ptr error;  ///< what stopped it; thrown again in the order of the series
 };
 
+/// One that no error stopped.
+template <class Archive>
+void archive(Archive& ar, SnapshotProduct& product) {
+  auto& [snapshot, slots, used, volume, volume_inside, temperature_zero, without_temperature, image,
+         holdup, flaws, bytes_read, error] = product;
+  ar(snapshot, slots, used, volume, volume_inside, temperature_zero, without_temperature, image,
+     holdup, flaws, bytes_read);
+}
+
 /// Buffers of one worker.
 struct ProductScratch {
   readers::Snapshot snapshot;
@@ -99,6 +132,10 @@ struct ProductScratch {
   std::vector<double> mass, mass_vx, mass_vz;
   std::vector<std::uint64_t> marks;
 };
+
+/// Doubled ids are a flaw of the whole series (pieces counted twice), so a sample shows them; the
+/// column is not read for the others.
+bool ids_wanted(std::size_t i, std::size_t snapshots);
 
 /// Reads snapshot i and computes all its sums into `out`, whose buffers are re-used.
 void make_product(const RunSetup& setup, const readers::Series& series, std::size_t i,

@@ -80,6 +80,7 @@ Json run_summary(const RunResult& run) {
           {"independent_samples", run.independent_samples},
           {"outside_fraction", run.outside_fraction},
           {"bytes_read", run.bytes_read},
+          {"snapshots_kept", run.snapshots_kept},
           {"seconds", run.seconds},
           {"mapping", run.mapping},
           {"domain_assumed", run.domain_assumed},

@@ -36,6 +36,12 @@ class Tracker {
   /// Sets track, track_velocity and parents of the clusters of `now`, seen at `time` [s].
   void link(ClusterImage& now, double time);
 
+  /// Into and out of one of the same grid.
+  template <class Archive>
+  void archive(Archive& ar) {
+    ar(before_, time_, step_, step_before_, tracks_);
+  }
+
  private:
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   Grid grid_;

@@ -14,6 +14,7 @@
 #include "analysis/summary.hpp"
 #include "analysis/tables.hpp"
 #include "app/commands.hpp"
+#include "app/output_folder.hpp"
 #include "app/progress.hpp"
 #include "app/study.hpp"
 #include "readers/error.hpp"
@@ -31,6 +32,7 @@ struct Options {
   bool follow = false;
   double interval = 5;  // s between two looks at a running simulation
   bool tables_only = false;
+  bool fresh = false;
 };
 
 volatile std::sig_atomic_t interrupted = 0;
@@ -40,18 +42,22 @@ Study study_of(const std::string& input) {
   return is_study ? read_study(input) : study_of_path(input);
 }
 
-void write_all(const Study& study, const std::vector<RunResult>& results, const Options& options) {
-  const std::filesystem::path folder = options.folder;
+void write_all(const Study& study, const std::vector<RunResult>& results, const Options& options,
+               OutputFolder& output) {
+  output.show_earlier();
+  const auto& folder = output.part();
   analysis::write_tables(results, folder / "tables");
   if (!options.tables_only) {
     analysis::write_results_file(results, folder / "results.h5");
   }
   analysis::write_summary(results, folder / "summary.json");
-  if (options.tables_only) return;
-  // Live, the page shall be there soon and renew itself; it links what stands beside it already.
-  const int refresh = options.follow ? std::max(1, static_cast<int>(options.interval)) : 0;
-  report::write_report(results, study.title, folder,
-                       {.png = !options.follow, .refresh_seconds = refresh});
+  if (!options.tables_only) {
+    // Live, the page shall be there soon and renew itself; it links what stands beside it already.
+    const int refresh = options.follow ? std::max(1, static_cast<int>(options.interval)) : 0;
+    report::write_report(results, study.title, folder,
+                         {.png = !options.follow, .refresh_seconds = refresh});
+  }
+  output.commit();
 }
 
 void tell(const std::vector<RunResult>& results, const Options& options) {
@@ -64,6 +70,9 @@ void tell(const std::vector<RunResult>& results, const Options& options) {
     fmt::print("{}: {} snapshots averaged, mean holdup {:.4g} +- {:.2g}, {:.2f} s\n", result.label,
                result.window.snapshots, result.mean_holdup.value, result.mean_holdup.ci95,
                result.seconds);
+    if (result.snapshots_kept > 0)
+      fmt::print("  {} of {} snapshots were kept by the analysis before\n", result.snapshots_kept,
+                 result.occurrence.size());
     for (const auto& problem : result.problems) fmt::print("  note: {}\n", problem);
   }
   fmt::print("{}\n", (std::filesystem::path(options.folder) /
@@ -71,23 +80,41 @@ void tell(const std::vector<RunResult>& results, const Options& options) {
                          .string());
 }
 
-analysis::AnalysisOptions analysis_options(const Options& options, Progress& progress) {
-  return {.threads = options.common.threads,
-          .pictures = !options.tables_only,
-          .progress = [&progress](std::size_t done, std::size_t all) { progress.show(done, all); }};
+/// Run `number` of the study, from 1.
+analysis::AnalysisOptions analysis_options(const Options& options, const OutputFolder& output,
+                                           std::size_t number, Progress& progress) {
+  const std::filesystem::path folder = options.folder;
+  const auto state = fmt::format("resume/run_{}.state", number);
+  analysis::AnalysisOptions how;
+  how.threads = options.common.threads;
+  how.pictures = !options.tables_only;
+  how.progress = [&progress](std::size_t done, std::size_t all) { progress.show(done, all); };
+  how.keep.index = output.part() / "index";
+  how.keep.state = output.part() / state;
+  if (!options.fresh) {
+    how.keep.earlier_index = folder / "index";
+    how.keep.earlier_state = folder / state;
+  }
+  if (!options.common.quiet)
+    how.note = [to = options.follow ? stdout : stderr](const std::string& text) {
+      fmt::print(to, "note: {}\n", text);
+    };
+  return how;
 }
 
-RunResult analyse(const StudyRun& run, const Options& options) {
+RunResult analyse(const StudyRun& run, std::size_t number, const Options& options,
+                  const OutputFolder& output) {
   Progress progress(run.settings.label, options.common.quiet);
-  auto result = run.tables.empty()
-                    ? analysis::analyse_run(run.settings, analysis_options(options, progress))
-                    : analysis::read_tables(run.tables, run.settings.label);
+  auto result =
+      run.tables.empty()
+          ? analysis::analyse_run(run.settings, analysis_options(options, output, number, progress))
+          : analysis::read_tables(run.tables, run.settings.label);
   result.problems.insert(result.problems.end(), run.problems.begin(), run.problems.end());
   return result;
 }
 
 /// Looks again and again; a half-written last dump is left for the next look. Ends by Ctrl-C.
-void follow(const Study& study, const Options& options) {
+void follow(const Study& study, const Options& options, OutputFolder& output) {
   std::signal(SIGINT, [](int) { interrupted = 1; });
   std::signal(SIGTERM, [](int) { interrupted = 1; });
   Progress silent("", true);
@@ -95,7 +122,7 @@ void follow(const Study& study, const Options& options) {
   for (const auto& run : study.runs) {
     if (!run.tables.empty())
       throw InputError("--follow: run \"{}\" has tables, expected particles", run.settings.label);
-    live.emplace_back(run.settings, analysis_options(options, silent));
+    live.emplace_back(run.settings, analysis_options(options, output, live.size() + 1, silent));
   }
   std::string waiting;
   const auto wait_for = [&](const Error& error) {
@@ -110,7 +137,7 @@ void follow(const Study& study, const Options& options) {
         std::vector<RunResult> results;
         results.reserve(live.size());
         for (const auto& run : live) results.push_back(run.result());
-        write_all(study, results, options);
+        write_all(study, results, options, output);
         if (!options.common.quiet)
           for (const auto& result : results)
             fmt::print("{}: {} snapshots, mean holdup {:.4g} +- {:.2g}\n", result.label,
@@ -133,10 +160,12 @@ void follow(const Study& study, const Options& options) {
 
 void run(const Options& options) {
   const auto study = study_of(options.input);
-  if (options.follow) return follow(study, options);
+  OutputFolder output(options.folder);
+  if (options.follow) return follow(study, options, output);
   std::vector<RunResult> results;
-  for (const auto& run : study.runs) results.push_back(analyse(run, options));
-  write_all(study, results, options);
+  for (const auto& run : study.runs)
+    results.push_back(analyse(run, results.size() + 1, options, output));
+  write_all(study, results, options, output);
   tell(results, options);
 }
 
@@ -156,6 +185,8 @@ void add_analyse(CLI::App& app) {
       ->check(CLI::Range(0.05, 86400.))
       ->capture_default_str();
   command->add_flag("--tables-only", options->tables_only, "no figures, no page, no results.h5");
+  command->add_flag("--fresh", options->fresh,
+                    "read all dumps, whatever an earlier analysis kept in the folder");
   add_common(*command, options->common);
   command->callback([options] { run(*options); });
 }

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include <cerrno>
+#include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <exception>
+#include <filesystem>
 #include <new>
 
 #include "app/commands.hpp"
@@ -19,8 +23,22 @@ void add_common(CLI::App& command, Common& common) {
 
 }  // namespace bedscope::app
 
+namespace {
+
+/// What was printed is complete only when it has left the program: into a pipe that is closed, or a
+/// file on a full disk, it may not.
+bool printed() { return std::fflush(stdout) == 0 && std::ferror(stdout) == 0; }
+
+int cannot_print() {
+  fmt::print(stderr, "bedscope: standard output: {}\n", std::strerror(errno));
+  return bedscope::app::bad_input;
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
   using namespace bedscope;
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is an error like a full disk
   try {
     CLI::App app(
         "Gas-solid fluidised beds and risers: what LIGGGHTS and OpenFOAM wrote, reduced to "
@@ -38,14 +56,18 @@ int main(int argc, char** argv) {
       fmt::print(stderr, "bedscope: {} (see bedscope --help)\n", error.what());
       return app::bad_input;
     }
-    return app::done;
+    return printed() ? app::done : cannot_print();
   } catch (const Error& error) {
     fmt::print(stderr, "bedscope: {}\n", error.what());
+    return app::bad_input;
+  } catch (const std::filesystem::filesystem_error& error) {
+    fmt::print(stderr, "bedscope: {}: {}\n", error.path1().string(), error.code().message());
     return app::bad_input;
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "bedscope: out of memory\n");
     return app::internal_error;
   } catch (const std::exception& error) {
+    if (!printed()) return cannot_print();
     fmt::print(stderr, "bedscope: internal error: {}\n", error.what());
     return app::internal_error;
   }

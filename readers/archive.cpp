@@ -68,6 +68,7 @@ ArchiveReader::ArchiveReader(const std::filesystem::path& path, std::string_view
 }
 
 void ArchiveReader::raw(void* data, std::size_t size) {
+  if (size == 0) return;  // zlib takes an empty vector's null for a new start
   if (size > left_ || std::fread(data, 1, size, file_.get()) != size)
     throw FormatError("{}: {} bytes from the end: {} expected", path_.string(), left_, size);
   left_ -= size;

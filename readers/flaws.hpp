@@ -33,6 +33,18 @@ struct Flaws {
   std::vector<std::string> describe(const Series& series) const;
 };
 
+template <class Archive>
+void archive(Archive& ar, Flaws::Kind& kind) {
+  auto& [particles, snapshots, snapshot, rows, ids] = kind;
+  ar(particles, snapshots, snapshot, rows, ids);
+}
+
+template <class Archive>
+void archive(Archive& ar, Flaws& flaws) {
+  auto& [not_finite, no_size, doubled_id, farthest] = flaws;
+  ar(not_finite, no_size, doubled_id, farthest);
+}
+
 /// Counts the ids that occur more than once. `scratch` is re-used.
 void find_doubled_ids(std::span<const double> ids, std::size_t snapshot,
                       std::vector<std::uint64_t>& scratch, Flaws& flaws);
