@@ -110,7 +110,6 @@ void write_setup(Hdf5Group& group, const RunResult& run) {
   group.attribute("domain_assumed", std::int64_t{run.domain_assumed});
   group.attribute("time_known", std::int64_t{run.time_known});
   group.attribute("density_known", std::int64_t{run.density_known});
-  group.attribute("bytes_read", static_cast<std::int64_t>(run.bytes_read));
   group.write("types", run.types);
   group.write("problems", run.problems);
   group.write("inputs", run.inputs);
