@@ -5,6 +5,7 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -80,9 +81,11 @@ void tell(const std::vector<RunResult>& results, const Options& options) {
                          .string());
 }
 
+using Note = std::function<void(const std::string&)>;
+
 /// Run `number` of the study, from 1.
 analysis::AnalysisOptions analysis_options(const Options& options, const OutputFolder& output,
-                                           std::size_t number, Progress& progress) {
+                                           std::size_t number, Progress& progress, Note note) {
   const std::filesystem::path folder = options.folder;
   const auto state = fmt::format("resume/run_{}.state", number);
   analysis::AnalysisOptions how;
@@ -95,20 +98,17 @@ analysis::AnalysisOptions analysis_options(const Options& options, const OutputF
     how.keep.earlier_index = folder / "index";
     how.keep.earlier_state = folder / state;
   }
-  if (!options.common.quiet)
-    how.note = [to = options.follow ? stdout : stderr](const std::string& text) {
-      fmt::print(to, "note: {}\n", text);
-    };
+  how.note = std::move(note);
   return how;
 }
 
 RunResult analyse(const StudyRun& run, std::size_t number, const Options& options,
-                  const OutputFolder& output) {
+                  const OutputFolder& output, const Note& note) {
   Progress progress(run.settings.label, options.common.quiet);
-  auto result =
-      run.tables.empty()
-          ? analysis::analyse_run(run.settings, analysis_options(options, output, number, progress))
-          : analysis::read_tables(run.tables, run.settings.label);
+  auto result = run.tables.empty()
+                    ? analysis::analyse_run(
+                          run.settings, analysis_options(options, output, number, progress, note))
+                    : analysis::read_tables(run.tables, run.settings.label);
   result.problems.insert(result.problems.end(), run.problems.begin(), run.problems.end());
   return result;
 }
@@ -118,11 +118,15 @@ void follow(const Study& study, const Options& options, OutputFolder& output) {
   std::signal(SIGINT, [](int) { interrupted = 1; });
   std::signal(SIGTERM, [](int) { interrupted = 1; });
   Progress silent("", true);
+  const Note note = [&](const std::string& text) {
+    if (!options.common.quiet) fmt::print("note: {}\n", text);
+  };
   std::vector<analysis::LiveAnalysis> live;
   for (const auto& run : study.runs) {
     if (!run.tables.empty())
       throw InputError("--follow: run \"{}\" has tables, expected particles", run.settings.label);
-    live.emplace_back(run.settings, analysis_options(options, output, live.size() + 1, silent));
+    live.emplace_back(run.settings,
+                      analysis_options(options, output, live.size() + 1, silent, note));
   }
   std::string waiting;
   const auto wait_for = [&](const Error& error) {
@@ -163,9 +167,13 @@ void run(const Options& options) {
   OutputFolder output(options.folder);
   if (options.follow) return follow(study, options, output);
   std::vector<RunResult> results;
+  std::vector<std::string> notes;  // told at the end: an error stands alone
+  const Note note = [&](const std::string& text) { notes.push_back(text); };
   for (const auto& run : study.runs)
-    results.push_back(analyse(run, results.size() + 1, options, output));
+    results.push_back(analyse(run, results.size() + 1, options, output, note));
   write_all(study, results, options, output);
+  if (!options.common.quiet)
+    for (const auto& text : notes) fmt::print(stderr, "note: {}\n", text);
   tell(results, options);
 }
 

@@ -75,6 +75,17 @@ void finish_svg(const fs::path& svg) {
   analysis::write_file(svg, text);
 }
 
+/// On a full disk gnuplot cuts a picture off and reports success.
+void require_whole(const fs::path& png) {
+  constexpr std::string_view last_chunk("\0\0\0\0IEND\xAE\x42\x60\x82", 12);
+  std::ifstream file(png, std::ios::binary);
+  std::array<char, last_chunk.size()> end{};
+  file.seekg(-static_cast<std::streamoff>(end.size()), std::ios::end);
+  file.read(end.data(), end.size());
+  if (!file || std::string_view(end.data(), end.size()) != last_chunk)
+    throw FileError("{}: cut off by gnuplot: is the disk full?", png.string());
+}
+
 /// SVG and PNG of all figures are so many tasks, dealt out to a process a core.
 std::vector<std::string> drivers(std::span<const Figure* const> figures, bool png) {
   std::vector<std::string> tasks;
@@ -124,6 +135,7 @@ void draw_figures(std::span<const Figure> figures, const fs::path& folder, bool 
   std::set<std::string> kept;
   for (const Figure* figure : drawn) {
     finish_svg(work.path() / (figure->name + ".svg"));
+    if (png) require_whole(work.path() / (figure->name + ".png"));
     for (const std::string ending : {".gp", ".dat", ".svg", ".png"}) {
       if (ending == ".png" && !png) continue;
       const std::string name = figure->name + ending;

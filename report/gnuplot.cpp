@@ -47,7 +47,7 @@ int start(const std::string& driver, const std::filesystem::path& folder, Proces
 /// The last line that says something: gnuplot echoes the command first, then its complaint.
 std::string complaint(const std::filesystem::path& errors) {
   std::ifstream file(errors);
-  std::string line, last = "no reason given";
+  std::string line, last = "no reason given: is the disk full?";
   while (std::getline(file, line)) {
     if (line.find_first_not_of(" \t^") == std::string::npos) continue;
     if (line.find("warning:") == std::string::npos) last = line;
@@ -84,7 +84,8 @@ void run_gnuplot(std::span<const std::string> drivers, const std::filesystem::pa
         "gnuplot-nox");
   }
   if (not_started != 0) throw FileError("gnuplot: {}", std::strerror(not_started));
-  if (failed != nullptr) throw FileError("gnuplot: {}", complaint(failed->errors));
+  if (failed != nullptr)
+    throw FileError("{}: gnuplot: {}", folder.string(), complaint(failed->errors));
 }
 
 }  // namespace bedscope::report

@@ -7,6 +7,7 @@ Usage: command_test.py BEDSCOPE [unittest arguments]. Exit code 77: numpy or sci
 import json
 import os
 import re
+import resource
 import shutil
 import signal
 import subprocess
@@ -705,6 +706,218 @@ class Follow(Command):
         error = process.stderr.read()
         self.assertEqual(error.count("\n"), 1, error)
         self.assertIn("dump200.liggghts_run", error)
+
+
+class Files(Command):
+    def tree(self, folder):
+        found = {}
+        for place, _, names in os.walk(folder):
+            for name in names:
+                path = os.path.join(place, name)
+                found[os.path.relpath(path, folder)] = read(path)
+        return found
+
+
+class Resume(Files):
+    """A second analysis reads what is new; whatever it finds, results are those of a fresh one."""
+
+    def results(self, folder):
+        """All files that are results, the summary without what tells of the work."""
+        tree = {name: content for name, content in self.tree(folder).items()
+                if not name.startswith(("resume/", "index/"))}
+        summary = json.loads(tree["summary.json"])
+        for run in summary["runs"]:
+            for key in ("seconds", "bytes_read", "snapshots_kept"):
+                del run[key]
+        return tree | {"summary.json": summary}
+
+    def again(self, study, *more, draw=False):
+        """Analyses into the same folder and into a new one; how many snapshots each run kept."""
+        more += ("--threads", "2") if draw else ("--tables-only",)
+        fresh = self.at("fresh")
+        shutil.rmtree(fresh, ignore_errors=True)
+        for out, options in ((self.out, more), (fresh, () if draw else more[-1:])):
+            done = self.run_it("analyse", study, "-o", out, *options)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            if out == self.out:
+                self.said = done.stderr
+        a, b = self.results(self.out), self.results(fresh)
+        self.assertEqual(sorted(a), sorted(b))
+        for name in a:
+            self.assertTrue(a[name] == b[name], name)
+        return [run["snapshots_kept"] for run in self.summary()]
+
+    def test_two_runs_with_figures(self):
+        self.post(range(0, 1000, 100), types=(1, 2), radii=[5e-4, 9e-4])
+        other = self.post(range(0, 500, 100), name="other", seed=2)
+        study = write_study(self.folder, scene(density={"1": 1000, "2": 3000}),
+                            [RUN | {"label": "a"}, RUN | {"label": "b", "particles": "other"}],
+                            profiles=PROFILES)
+        self.assertEqual(self.again(study, draw=True), [0, 0])
+        other.write(500, other.particles(60))
+        self.assertEqual(self.again(study, draw=True), [10, 4])
+        self.assertEqual(self.said, "")
+        self.assertEqual(self.again(study, "--fresh", draw=True), [0, 0])
+        self.assertEqual(self.said, "")
+
+    def test_one_file_has_an_index(self):
+        self.post(range(0, 1000, 100), count=200)
+        parts = [read(self.dump(s)) for s in range(0, 1000, 100)]
+        write(self.at("all.dump"), b"".join(parts[:6]) + parts[6][:3000])
+        study = self.study({"particles": "all.dump"})
+        self.assertEqual(self.again(study), [0])
+        self.assertEqual(len(os.listdir(os.path.join(self.out, "index"))), 1)
+        write(self.at("all.dump"), b"".join(parts))
+        self.assertEqual(self.again(study), [5], "rewritten, but what was read is in it unchanged")
+        with open(self.at("all.dump"), "ab") as file:
+            file.write(read(self.dump(900)).replace(b"TIMESTEP\n900", b"TIMESTEP\n1000"))
+        self.assertEqual(self.again(study), [9])
+        for name in os.listdir(os.path.join(self.out, "index")):
+            write(os.path.join(self.out, "index", name), b"bedscope index")
+        self.assertEqual(self.again(study), [11])
+
+    def test_what_begins_anew_is_said(self):
+        self.post()
+        study = self.study()
+        self.again(study)
+        self.edit(self.dump(200), 10, read(self.dump(200)).split(b"\n")[10].decode())
+        self.again(study)
+        self.assertIn("dump200.liggghts_run", self.said)
+        self.assertEqual(self.said.count("\n"), 1, self.said)
+        write(os.path.join(self.out, "resume", "run_1.state"), b"bedscope")
+        self.assertEqual(self.again(study), [0])
+        self.assertIn("run_1.state", self.said)
+
+    def test_results_of_a_failed_analysis_stay_as_they_were(self):
+        self.post()
+        study = self.study()
+        self.again(study)
+        before = self.tree(self.out)
+        self.post([600], name="post", seed=3)
+        self.edit(self.dump(300), 12, "1 2 3")
+        done = self.run_it("analyse", study, "-o", self.out)
+        self.assertEqual(done.returncode, 2)
+        self.assertEqual(self.tree(self.out), before)
+
+    def test_files_of_others_stay(self):
+        self.post()
+        study = self.study(sections={"temperature": {"from": 330.0, "to": 380.0}})
+        self.again(study, draw=True)
+        for name in ("tables/mine.txt", "figures/mine.svg", "results.mine", "notes"):
+            write(os.path.join(self.out, name), name)
+        self.analyse(self.study())
+        for name in ("tables/mine.txt", "figures/mine.svg", "results.mine", "notes"):
+            self.assertEqual(read(os.path.join(self.out, name)), name.encode())
+        self.assertNotIn("temperature_pdf.csv", self.tables())
+
+    def test_follow_goes_on(self):
+        self.post(range(0, 1000, 100))
+        study = self.study()
+        self.analyse(study)
+        self.post(range(1000, 1200, 100), seed=4)
+        process = subprocess.Popen([PROGRAM, "analyse", study, "-o", self.out, "--tables-only", "--follow",
+                                    "--interval", "0.05"], stdout=subprocess.DEVNULL)
+        self.addCleanup(lambda: process.poll() is None and process.kill())
+        until = time.monotonic() + PATIENCE
+        while len(self.rows("cluster_occurrence")) < 12 and time.monotonic() < until:
+            time.sleep(0.02)
+        process.send_signal(signal.SIGTERM)
+        self.assertEqual(process.wait(PATIENCE), 0)
+        self.assertEqual(self.summary()[0]["snapshots_kept"], 9)
+        self.analyse(study, out=self.at("other"))
+        self.assertEqual(self.tables(), self.tables(self.at("other")))
+        self.analyse(study)
+        self.assertEqual(self.summary()[0]["snapshots_kept"], 12)
+        self.assertNotIn(".part", os.listdir(self.out))
+
+
+class FullDisk(Files):
+    """A write that fails: one line, exit code 2, and the folder as it was."""
+
+    def limited(self, size, *arguments, **options):
+        limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
+        return self.run_it(*arguments, preexec_fn=limit, **options)
+
+    def refused(self, done, *words):
+        self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
+        for word in words:
+            self.assertIn(word, done.stderr)
+
+    def sizes(self, tree):
+        """Limits at which one file or another is the first that does not fit."""
+        sizes = sorted({len(content) for content in tree.values()})
+        return [0] + [size - 1 for size in sizes if size > 9000][-1::-4]
+
+    def test_each_file_that_does_not_fit(self):
+        self.post()
+        study = self.study()
+        self.run_it("analyse", study, "-o", self.at("whole"))
+        whole = self.tree(self.at("whole"))
+        for size in self.sizes(whole):
+            with self.subTest(size=size):
+                new, old = self.at(f"new{size}"), self.at(f"old{size}")
+                shutil.copytree(self.at("whole"), old)
+                for out in (new, old):
+                    done = self.limited(size, "analyse", study, "-o", out, "--fresh")
+                    if done.returncode == 0:  # all but what only serves the next analysis
+                        self.assertIn("resume/run_1.state", done.stderr)
+                    else:
+                        self.refused(done, out)
+                names = set(self.tree(new)) | {"resume/run_1.state"}
+                self.assertTrue(not os.path.exists(new) or names == set(whole), names)
+                if done.returncode != 0:
+                    self.assertTrue(self.tree(old) == whole)
+                self.assertNotIn(".part", os.listdir(old))
+
+    def test_gnuplot_that_meets_the_end(self):
+        self.post(range(0, 1200, 100), count=300)
+        study = self.study()
+        self.run_it("analyse", study, "-o", self.at("whole"))
+        figures = {name: content for name, content in self.tree(self.at("whole")).items()
+                   if name.endswith((".png", ".svg"))}
+        os.makedirs(self.at("bin"))
+        path = self.at("bin", "gnuplot")
+        real = shutil.which("gnuplot")
+        for size in self.sizes(figures)[:: 2]:
+            with self.subTest(size=size):
+                write(path, f"#!/bin/bash\nulimit -f {size // 1024}\ntrap '' XFSZ\nexec {real} \"$@\"\n")
+                os.chmod(path, 0o755)
+                done = self.run_it("analyse", study, "-o", self.out, "--quiet",
+                                   env=os.environ | {"PATH": self.at("bin") + ":" + os.environ["PATH"]})
+                self.refused(done, self.out)
+                self.assertFalse(os.path.exists(self.out))
+
+    def test_folder_that_vanishes(self):
+        self.post(range(0, 3000, 100), count=500)
+        study = self.study(mapping="divided")
+        process = subprocess.Popen([PROGRAM, "analyse", study, "-o", self.out, "--quiet", "--threads", "1"],
+                                   stderr=subprocess.PIPE, text=True)
+        self.addCleanup(process.stderr.close)
+        while not os.path.isdir(os.path.join(self.out, ".part")):
+            self.assertIsNone(process.poll())
+        shutil.rmtree(self.out)
+        error = process.communicate(timeout=PATIENCE)[1]
+        self.assertIn(process.returncode, (0, 2), error)
+        if process.returncode == 2:
+            self.assertEqual(error.count("\n"), 1, error)
+            self.assertIn(self.out, error)
+        else:  # it made the folder anew, in time
+            self.assertIn("index.html", os.listdir(self.out))
+
+    @unittest.skipIf(os.geteuid() == 0, "root may write everywhere")
+    def test_folder_without_permission(self):
+        self.post()
+        os.makedirs(self.out)
+        os.chmod(self.out, 0o555)
+        self.refused(self.run_it("analyse", self.study(), "-o", self.out), self.out)
+
+    def test_standard_output(self):
+        self.post()
+        with open("/dev/full", "w") as full:
+            for arguments in (("info", self.at("post")), ("info", self.at("post"), "--json"),
+                              ("analyse", self.study(), "-o", self.out, "--json")):
+                done = subprocess.run([PROGRAM, *arguments], stdout=full, stderr=subprocess.PIPE, text=True)
+                self.refused(done, "standard output")
 
 
 class Killed(Command):
