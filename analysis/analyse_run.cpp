@@ -98,15 +98,6 @@ bool same_steps(const readers::Series& a, const readers::Series& b) {
   return true;
 }
 
-/// Equal spacing (to rounding): then every snapshot weighs the same wherever the window begins.
-bool evenly_spaced(const std::vector<double>& times) {
-  if (times.size() < 3) return true;
-  const double gap = (times.back() - times.front()) / static_cast<double>(times.size() - 1);
-  for (std::size_t i = 1; i < times.size(); ++i)
-    if (std::abs(times[i] - times[i - 1] - gap) > 1e-6 * gap) return false;
-  return true;
-}
-
 IndexRange window_of(const RunSetup& setup) {
   if (!setup.settings.average) return {0, setup.times.size()};
   const auto [from, to] = *setup.settings.average;
@@ -116,15 +107,6 @@ IndexRange window_of(const RunSetup& setup) {
         "run \"{}\": average: no snapshot between {} and {} s; the dumps run from {} to {} s",
         setup.settings.label, from, to, setup.times.front(), setup.times.back());
   return window;
-}
-
-/// A weight for every snapshot, 0 outside the window.
-std::vector<double> weights_of(const RunSetup& setup, const IndexRange& window) {
-  std::vector<double> weights(setup.times.size(), 0.);
-  const auto inside = time_weights(std::span(setup.times).subspan(window.first, window.count));
-  std::copy(inside.begin(), inside.end(),
-            weights.begin() + static_cast<std::ptrdiff_t>(window.first));
-  return weights;
 }
 
 /// Some snapshots of the window, evenly spread; those at hand are not read again.
@@ -189,17 +171,17 @@ struct LiveAnalysis::State {
     if (is_auto() && !evenly_spaced(setup->times)) {
       // The weight of a snapshot depends on where the window begins, so the run is read twice: once
       // to choose the window, once to average over it.
-      window =
-          add_all(kept->whole, weights_of(*setup, {0, setup->times.size()}), news).choose_window();
+      window = add_all(kept->whole, window_weights(setup->times, {0, setup->times.size()}), news)
+                   .choose_window();
       setup->settings.average = {setup->times[window.first], setup->times.back()};
-      const auto weights = weights_of(*setup, window_of(*setup));
+      const auto weights = window_weights(setup->times, window_of(*setup));
       result = add_all(kept->window, weights, news).finish(*series, window);
       result.snapshots_kept = std::min(kept->whole.read_from, kept->window.read_from);
       setup->settings.average.reset();
     } else {
       const auto range = window_of(*setup);
       window = {.first = range.first, .snapshots = range.count};
-      auto complete = add_all(kept->whole, weights_of(*setup, range), news);
+      auto complete = add_all(kept->whole, window_weights(setup->times, range), news);
       if (is_auto()) window = complete.choose_window();
       result = std::move(complete).finish(*series, window);
       result.snapshots_kept = kept->whole.read_from;
@@ -247,7 +229,7 @@ struct LiveAnalysis::State {
     try {
       index.save();
       const auto& path = options.keep.state;
-      if (path.empty()) return;
+      if (path.empty() || kept->dumps.snapshots.empty()) return;
       const auto size = kept->save(path);
       std::error_code ignored;
       if (size > small_state && size > result.bytes_read) std::filesystem::remove(path, ignored);

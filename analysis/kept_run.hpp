@@ -39,7 +39,8 @@ struct SeriesMark {
   }
 };
 
-/// To be taken before rows are read: what changes later shows at the next look.
+/// To be taken before rows are read: what changes later shows at the next look. Empty for forms
+/// that are a folder as a whole, so that these are read anew at each look.
 SeriesMark mark_of(const readers::Series& series, const RunSetup& setup);
 
 /// How many snapshots at the start of the series are still what they were.
@@ -95,8 +96,8 @@ struct KeptRun {
   /// empty where it need not.
   std::string adapt(std::string fingerprint_now, SeriesMark dumps_now);
 
-  /// Throws FileError, or FormatError where the file is damaged or of another version; nothing is
-  /// kept then.
+  /// Throws FileError, or FormatError where the file is damaged or of another version; what is here
+  /// is then worth nothing.
   void load(const std::filesystem::path& path);
   /// Returns the size of the file [bytes]. Throws FileError.
   std::uint64_t save(const std::filesystem::path& path);

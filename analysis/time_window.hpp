@@ -19,6 +19,12 @@ struct IndexRange {
   std::size_t first = 0, count = 0;
 };
 
+/// A weight for every snapshot of a series: time_weights of the window, 0 outside.
+std::vector<double> window_weights(std::span<const double> times, const IndexRange& window);
+
+/// Equal spacing (to rounding): then every snapshot weighs the same wherever a window begins.
+bool evenly_spaced(std::span<const double> times);
+
 /// The snapshots with from - half_step <= t <= to + half_step. Half a step of the solver makes the
 /// ends insensitive to the rounding of t = step * time_step, and can include no other snapshot
 /// when from and to are times of snapshots. `times` ascending; `from` and `to` may be infinite.

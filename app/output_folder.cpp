@@ -29,7 +29,7 @@ void list_files(const fs::path& root, const fs::path& folder, std::vector<fs::pa
   for (fs::directory_iterator item(folder, error), end; !error && item != end;
        item.increment(error))
     if (std::error_code ignored; item->is_regular_file(ignored))
-      files.push_back(fs::relative(item->path(), root, ignored));
+      files.push_back(item->path().lexically_relative(root));
 }
 
 }  // namespace
@@ -76,7 +76,7 @@ void OutputFolder::commit() {
     if (!fs::exists(part_ / file, error)) fs::remove(folder_ / file, error);
   std::vector<fs::path> files;
   for (const auto& item : fs::recursive_directory_iterator(part_))
-    if (item.is_regular_file()) files.push_back(fs::relative(item.path(), part_));
+    if (item.is_regular_file()) files.push_back(item.path().lexically_relative(part_));
   for (const auto& file : files) {
     if (std::error_code ignored; fs::equivalent(part_ / file, folder_ / file, ignored)) {
       fs::remove(part_ / file, ignored);  // as it was
