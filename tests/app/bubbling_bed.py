@@ -12,13 +12,13 @@ import numpy as np
 
 class Bed:
     def __init__(self, seed=1, width=0.12, depth=0.006, height=0.2, domain_height=0.3, diameter=0.0015,
-                 shake=0.1):
+                 shake=0.1, splash=0):
         self.rng = np.random.default_rng(seed)
         self.size, self.height, self.diameter = (width, depth, domain_height), height, diameter
         n = [int(length / diameter) for length in (width, depth, height)]
         place = np.stack(np.meshgrid(*[np.arange(k) + 0.5 for k in n], indexing="ij"), -1).reshape(-1, 3)
         self.place = place * (np.array([width, depth, height]) / n)
-        self.shake = shake * diameter
+        self.shake, self.splash = shake * diameter, splash  # particles above the bed
 
     def particles(self, voids):
         """Those outside of the voids, given as (x, z, diameter)."""
@@ -26,7 +26,9 @@ class Bed:
         keep = np.ones(len(place), bool)
         for x, z, diameter in voids:
             keep &= np.hypot(place[:, 0] - x, place[:, 2] - z) > diameter / 2
-        return place[keep]
+        width, depth, top = self.size
+        above = self.rng.random((self.splash, 3)) * [width, depth, top - self.height]
+        return np.concatenate([place[keep], above + [0, 0, self.height]])
 
     def write(self, path, step, voids):
         place = self.particles(voids)
