@@ -83,8 +83,11 @@ class Bubbling(unittest.TestCase):
         for r in middle:
             # The boundary is where 2/3 of a cell are void: the diameter is a third of a cell less.
             self.assertAlmostEqual(r["diameter [m]"], self.diameter - 0.004 / 3, delta=0.0012)
-            self.assertAlmostEqual(r["velocity_z [m/s]"], self.speed, delta=0.03 * self.speed)
+            # A centroid of pixels moves by some 0.5 mm too much or too little, 0.05 m/s.
+            self.assertAlmostEqual(r["velocity_z [m/s]"], self.speed, delta=0.06 * self.speed)
             self.assertAlmostEqual(r["frequency [1/s]"], self.frequency, delta=0.5)  # +-1 in 2 s
+        mean = np.mean([r["velocity_z [m/s]"] for r in middle])
+        self.assertAlmostEqual(mean, self.speed, delta=0.02 * self.speed)
         for b in tables["bubbles"]:
             self.assertAlmostEqual(float(b["x [m]"]), 0.041, delta=0.001)
             self.assertLess(float(b["z [m]"]), 0.16)
