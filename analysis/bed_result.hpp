@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -51,9 +52,9 @@ struct Spectrum {
   std::vector<double> frequency;  ///< [Hz], from 0
   std::vector<double> density;    ///< [unit2/Hz]
   std::vector<double> low, high;  ///< bounds of its 95 % interval
-  double resolution = 0;          ///< [Hz], one over the duration of a segment
   int segments = 0;
-  double degrees_of_freedom = 0;
+  double resolution = std::numeric_limits<double>::quiet_NaN();  ///< 1 / duration of a segment [Hz]
+  double degrees_of_freedom = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// How one signal fluctuates over the window.
