@@ -46,12 +46,13 @@ Figure bed_height_figure(Runs runs) {
   if (height.empty()) return left_out(name, title, "no bed in the snapshots");
   const Unit unit = length_unit(height.hi);
   constexpr double left = 19, bottom = 11, right = 5, title_room = 5.5;
-  const double row_height = shown.size() == 1 ? 55 : 38;
   std::vector<LegendEntry> entries;
   for (const Curve& curve : curves) entries.push_back({curve.line, "", curve.label});
   const double legend = Canvas::legend_height(entries, page_width - left) + 2;
-  const double each = row_height + title_room;
   const auto n = static_cast<double>(shown.size());
+  const double room = (page_height - bottom - legend) / n - title_room;
+  const double row_height = std::min(shown.size() == 1 ? 55. : 38., room);
+  const double each = row_height + title_room;
   Canvas canvas(page_width, bottom + each * n + legend);
   canvas.legend(entries, left, canvas.height() - 0.5, page_width - left);
   for (std::size_t r = 0; r < shown.size(); ++r) {
@@ -63,7 +64,8 @@ Figure bed_height_figure(Runs runs) {
     panel.height = row_height;
     panel.x = exact_axis(time.lo, time.hi, 8);
     const Range padded = height.padded();
-    panel.y = rounded_axis(unit.factor * std::max(0., padded.lo), unit.factor * padded.hi, 6);
+    panel.y = rounded_axis(unit.factor * std::max(0., padded.lo), unit.factor * padded.hi,
+                           row_height < 25 ? 3 : 6);
     panel.x_numbers = r + 1 == shown.size();
     if (panel.x_numbers) panel.x_label = literal(time_label(runs));
     panel.y_label = literal(fmt::format("bed height [{}]", unit.name));

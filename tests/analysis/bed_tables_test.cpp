@@ -37,7 +37,7 @@ TEST(BedTables, are_as_documented) {
   EXPECT_EQ(content(folder / "bubbles.csv"),
             "run,time [s],bubble,track,x [m],z [m],area [m2],diameter [m],aspect [-],voidage "
             "[-],velocity_x [m/s],velocity_z [m/s],at_wall,parents\n"
-            "\"a, \"\"b\"\"\",0.2,1,3,0.032,0.3333333333333333,0.0001,0.011283791670955126,0.5,"
+            "\"a, \"\"b\"\"\",0.2,1,3,0.032,0.3333333333333333,1e-04,0.011283791670955126,0.5,"
             "0.25,0.75,0.75,1,1;2\n");
   EXPECT_EQ(content(folder / "bubble_profile.csv"),
             "run,height [m],band [m],bubbles [-],bubbles_ci95 [-],diameter [m],diameter_ci95 [m],"

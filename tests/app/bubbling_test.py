@@ -135,6 +135,18 @@ class Bubbling(unittest.TestCase):
         power = sum(float(r["psd [unit2/Hz]"]) for r in spectrum) * float(p["resolution [Hz]"])
         self.assertAlmostEqual(power, 1.44 * 462.5, delta=0.02 * 1.44 * 462.5)
 
+    def test_results_do_not_depend_on_the_number_of_threads(self):
+        self.analyse("[bubbles]\n[spectra]\n")
+        found = []
+        for threads in ("1", "3"):
+            out = os.path.join(self.folder, "threads" + threads)
+            subprocess.run([BEDSCOPE, "analyse", self.folder + "/study.toml", "-o", out, "--tables-only",
+                            "--quiet", "--threads", threads], check=True)
+            found.append({name: open(f"{out}/tables/{name}", "rb").read()
+                          for name in os.listdir(out + "/tables")})
+        self.assertIn("bubble_profile.csv", found[0])
+        self.assertEqual(found[0], found[1])
+
     def test_what_is_wrong_is_one_line(self):
         self.probes("empty/note", "nothing\n", [])
         error = self.analyse("", run='probes = "empty"', code=2)

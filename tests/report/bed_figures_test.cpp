@@ -97,6 +97,12 @@ TEST(BedFigures, AreDrawnForOneRunAndForSeveral) {
   }
 }
 
+TEST(BedFigures, OfTenRunsFitOnAPage) {
+  std::vector<RunResult> runs;
+  for (int r = 0; r < 10; ++r) runs.push_back(bed_run("run " + std::to_string(r), 0.02));
+  for (const auto& figure : report::make_figures(runs)) EXPECT_LE(figure.height, 230.0);
+}
+
 TEST(BedFigures, ShowWhatWasFound) {
   const auto figures = report::make_figures(std::vector{bed_run("a", 0.02)});
   EXPECT_NE(find(figures, "bubble_profile")->data.find("21 0.05 1\n"), std::string::npos)
