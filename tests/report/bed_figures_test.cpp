@@ -100,7 +100,11 @@ TEST(BedFigures, AreDrawnForOneRunAndForSeveral) {
 TEST(BedFigures, OfTenRunsFitOnAPage) {
   std::vector<RunResult> runs;
   for (int r = 0; r < 10; ++r) runs.push_back(bed_run("run " + std::to_string(r), 0.02));
-  for (const auto& figure : report::make_figures(runs)) EXPECT_LE(figure.height, 230.0);
+  const auto figures = report::make_figures(runs);
+  for (const char* name : {"bed_height", "bubbles_10", "bubble_profile", "spectra"}) {
+    ASSERT_NE(find(figures, name), nullptr) << name;
+    EXPECT_LE(find(figures, name)->height, 230.0) << name;
+  }
 }
 
 TEST(BedFigures, ShowWhatWasFound) {
