@@ -14,7 +14,9 @@ TEST(Survey, RangesAreThoseOfTheRows) {
   folder.write("dump2", dump_header(2, 1, "id type x y z radius") + "1 2 9 0 0 .125 \n");
   const auto found = survey(Series::open(folder.path()), true);
   EXPECT_EQ(found.particles, (std::array<std::int64_t, 2>{1, 3}));
-  EXPECT_EQ(found.types, (std::map<std::int64_t, std::int64_t>{{1, 1}, {2, 1}, {3, 2}}));
+  std::map<std::int64_t, std::int64_t> particles;
+  for (const auto& [type, species] : found.types) particles[type] = species.particles;
+  EXPECT_EQ(particles, (std::map<std::int64_t, std::int64_t>{{1, 1}, {2, 1}, {3, 2}}));
   EXPECT_TRUE(found.has_radius);
   EXPECT_EQ(found.radius, (std::array{.125, 1.}));
   EXPECT_EQ(found.min, (std::array{-1., -5., 0.}));
@@ -31,7 +33,7 @@ TEST(Survey, TheRowsOfTenSnapshotsAreReadTheFirstAndTheLastAmongThemUnlessAllAre
   const auto some = survey(series, false);
   EXPECT_EQ(some.snapshots_read, 10U);
   EXPECT_EQ(some.particles, (std::array<std::int64_t, 2>{5, 9}));
-  EXPECT_EQ(some.types.at(1), 9 + 8 * 5 + 9);
+  EXPECT_EQ(some.types.at(1).particles, 9 + 8 * 5 + 9);
   EXPECT_EQ(survey(series, true).snapshots_read, 37U);
 }
 
