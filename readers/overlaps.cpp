@@ -12,8 +12,9 @@
 namespace bedscope::readers {
 namespace {
 
-/// A dense packing gives fewer than 300 looks a sphere; more means many spheres in one place.
-constexpr std::int64_t looks_a_sphere = 1000;
+/// A dense packing gives fewer than 300 looks a sphere and 6 contacts; more means many spheres in
+/// one place. A contact costs as much time as ten looks.
+constexpr std::int64_t looks_a_sphere = 1000, looks_a_contact = 10;
 
 using Cell = std::array<std::int64_t, 3>;
 
@@ -101,15 +102,14 @@ class Judge {
 
   void take(std::size_t a, std::size_t b) {
     if (!s_->body.empty() && s_->body[a] > 0 && s_->body[a] == s_->body[b]) return;
-    double squared = 0, open = 0;
-    for (const auto& x : {s_->x, s_->y, s_->z}) {
-      squared += (x[a] - x[b]) * (x[a] - x[b]);
-      open += std::pow(digit_of(x[a]) + digit_of(x[b]), 2);
-    }
+    double squared = 0;
+    for (const auto& x : {s_->x, s_->y, s_->z}) squared += (x[a] - x[b]) * (x[a] - x[b]);
     const double reach = s_->radius[a] + s_->radius[b];
     const double smaller = std::min(s_->radius[a], s_->radius[b]);
-    const double rounding = std::sqrt(open) + digit_of(s_->radius[a]) + digit_of(s_->radius[b]);
-    const double depth = reach - std::sqrt(squared) - rounding;
+    double depth = reach - std::sqrt(squared);
+    if (depth <= std::min(found_->deepest, overlap_rule) * smaller) return;
+    const double rounding = open_digits(a, b);
+    depth -= rounding;
     if (depth > overlap_rule * smaller) ++found_->beyond_rule;
     if (depth > 0.1 * reach) ++found_->deep;
     if (depth <= found_->deepest * smaller) return;
@@ -120,6 +120,14 @@ class Judge {
   }
 
  private:
+  /// What rounding may have added to an overlap.
+  double open_digits(std::size_t a, std::size_t b) const {
+    double squared = 0;
+    for (const auto& x : {s_->x, s_->y, s_->z})
+      squared += std::pow(digit_of(x[a]) + digit_of(x[b]), 2);
+    return std::sqrt(squared) + digit_of(s_->radius[a]) + digit_of(s_->radius[b]);
+  }
+
   const Spheres* s_;
   Overlaps* found_;
 };
@@ -140,7 +148,10 @@ Overlaps find_overlaps(const Spheres& spheres) {
         const bool same = &level == &larger.back();
         looks -= 27;  // the cells themselves
         found.complete = level.around(a, [&](std::size_t b, const Cell& cell) {
-          if ((!same || b > a) && judge.touch(a, b) && level.cell_of(b) == cell) judge.take(a, b);
+          if ((!same || b > a) && judge.touch(a, b) && level.cell_of(b) == cell) {
+            judge.take(a, b);
+            looks -= looks_a_contact;
+          }
           return --looks > 0;
         });
         if (!found.complete) return found;
