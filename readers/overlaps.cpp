@@ -18,6 +18,16 @@ constexpr std::int64_t looks_a_sphere = 1000, looks_a_contact = 10;
 
 using Cell = std::array<std::int64_t, 3>;
 
+struct Ball {
+  double x, y, z, radius;
+  std::size_t row;
+};
+
+bool touch(const Ball& a, const Ball& b) {
+  const double dx = a.x - b.x, dy = a.y - b.y, dz = a.z - b.z, reach = a.radius + b.radius;
+  return dx * dx + dy * dy + dz * dz < reach * reach;
+}
+
 /// Half a unit of the sixth significant digit.
 double digit_of(double x) {
   const double size = std::abs(x);
@@ -28,38 +38,47 @@ double digit_of(double x) {
 /// of them. Cells are hashed so that neighbours along x share a run of buckets.
 class Level {
  public:
-  Level(const Spheres& spheres, const std::vector<std::size_t>& rows) : spheres_(&spheres) {
+  Level(const Spheres& s, const std::vector<std::size_t>& rows) {
     double largest = 0;
-    for (const auto row : rows) largest = std::max(largest, spheres.radius[row]);
-    width_ = 2 * largest;
+    for (const auto row : rows) largest = std::max(largest, s.radius[row]);
+    per_width_ = 1 / (2 * largest);
     const auto buckets = std::bit_ceil(2 * rows.size());
     mask_ = buckets - 1;
     starts_.assign(buckets + 1, 0);
-    for (const auto row : rows) ++starts_[bucket(cell_of(row)) + 1];
+    const auto ball = [&](std::size_t row) {
+      return Ball{s.x[row], s.y[row], s.z[row], s.radius[row], row};
+    };
+    for (const auto row : rows) ++starts_[bucket(cell_of(ball(row))) + 1];
     std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
-    rows_.resize(rows.size());
+    balls_.resize(rows.size());
     auto next = starts_;
-    for (const auto row : rows) rows_[next[bucket(cell_of(row))]++] = row;
+    for (const auto row : rows) balls_[next[bucket(cell_of(ball(row)))]++] = ball(row);
   }
 
-  /// Calls visit(row) for the spheres of the 27 cells around a place; it returns false to stop.
+  const std::vector<Ball>& balls() const { return balls_; }
+
+  /// Calls visit(ball, cell) for the spheres of the 27 cells around a place, or, so that pairs of
+  /// one level come once, of the 14 that do not lie before its own. It returns false to stop.
   template <class Visit>
-  bool around(std::size_t sphere, Visit&& visit) const {
-    const Cell at = cell_of(sphere);
-    for (std::int64_t k = at[2] - 1; k <= at[2] + 1; ++k)
-      for (std::int64_t j = at[1] - 1; j <= at[1] + 1; ++j)
-        for (std::int64_t i = at[0] - 1; i <= at[0] + 1; ++i) {
-          const auto b = bucket({i, j, k});
-          for (auto n = starts_[b]; n < starts_[b + 1]; ++n)
-            if (!visit(rows_[n], Cell{i, j, k})) return false;
-        }
+  bool around(const Ball& place, bool half, Visit&& visit) const {
+    const Cell at = cell_of(place);
+    for (int step = half ? 13 : 0; step < 27; ++step) {
+      const Cell cell{at[0] + step % 3 - 1, at[1] + step / 3 % 3 - 1, at[2] + step / 9 - 1};
+      const auto b = bucket(cell);
+      for (auto n = starts_[b]; n < starts_[b + 1]; ++n) {
+        if (half && step == 13 && balls_[n].row <= place.row) continue;
+        if (!visit(balls_[n], cell)) return false;
+      }
+    }
     return true;
   }
 
-  Cell cell_of(std::size_t row) const {
-    return {static_cast<std::int64_t>(std::floor(spheres_->x[row] / width_)),
-            static_cast<std::int64_t>(std::floor(spheres_->y[row] / width_)),
-            static_cast<std::int64_t>(std::floor(spheres_->z[row] / width_))};
+  /// A product instead of a division moves cells by rounding, so by less than spheres shrink when
+  /// the open digits are taken off.
+  Cell cell_of(const Ball& ball) const {
+    return {static_cast<std::int64_t>(std::floor(ball.x * per_width_)),
+            static_cast<std::int64_t>(std::floor(ball.y * per_width_)),
+            static_cast<std::int64_t>(std::floor(ball.z * per_width_))};
   }
 
  private:
@@ -70,10 +89,10 @@ class Level {
     return static_cast<std::size_t>(hash) & mask_;
   }
 
-  const Spheres* spheres_;
-  double width_ = 0;
+  double per_width_ = 0;
   std::size_t mask_ = 0;
-  std::vector<std::size_t> starts_, rows_;
+  std::vector<std::size_t> starts_;
+  std::vector<Ball> balls_;
 };
 
 /// Rows by size: class n holds diameters from 2^n to 2^(n+1).
@@ -93,12 +112,6 @@ std::map<int, std::vector<std::size_t>> by_size(const Spheres& s) {
 class Judge {
  public:
   Judge(const Spheres& spheres, Overlaps& found) : s_(&spheres), found_(&found) {}
-
-  bool touch(std::size_t a, std::size_t b) const {
-    const double dx = s_->x[a] - s_->x[b], dy = s_->y[a] - s_->y[b], dz = s_->z[a] - s_->z[b];
-    const double reach = s_->radius[a] + s_->radius[b];
-    return dx * dx + dy * dy + dz * dz < reach * reach;
-  }
 
   void take(std::size_t a, std::size_t b) {
     if (!s_->body.empty() && s_->body[a] > 0 && s_->body[a] == s_->body[b]) return;
@@ -141,15 +154,15 @@ Overlaps find_overlaps(const Spheres& spheres) {
   const auto classes = by_size(spheres);
   // Each sphere against its own class and all larger ones: a cell there is as wide as both.
   std::vector<Level> larger;
-  for (auto own = classes.rbegin(); own != classes.rend() && found.complete; ++own) {
+  for (auto own = classes.rbegin(); own != classes.rend(); ++own) {
     larger.emplace_back(spheres, own->second);
-    for (const auto a : own->second) {
+    for (const auto& a : larger.back().balls()) {
       for (const auto& level : larger) {
-        const bool same = &level == &larger.back();
         looks -= 27;  // the cells themselves
-        found.complete = level.around(a, [&](std::size_t b, const Cell& cell) {
-          if ((!same || b > a) && judge.touch(a, b) && level.cell_of(b) == cell) {
-            judge.take(a, b);
+        const bool same = &level == &larger.back();
+        found.complete = level.around(a, same, [&](const Ball& b, const Cell& cell) {
+          if (touch(a, b) && level.cell_of(b) == cell) {
+            judge.take(a.row, b.row);
             looks -= looks_a_contact;
           }
           return --looks > 0;
