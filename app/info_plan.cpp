@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <map>
 #include <thread>
 
 #include "app/study.hpp"
@@ -42,15 +43,18 @@ std::vector<std::string> products_of(const RunSetup& setup) {
 }
 
 /// Each thread and one more hold a snapshot's columns and its sums; an average over a window that
-/// is still to be found keeps its sums in blocks of 16 snapshots, at most 128 of them.
+/// is still to be found keeps its sums in blocks of 16 snapshots, at most 128 of them, and once
+/// more while they are merged. Measured on three runs of 27 to 535 MB: 2 % below to 18 % above.
 double memory_of(const RunSetup& setup, const readers::Survey& survey) {
+  constexpr double program = 20e6;
   const double types = std::max<double>(1, static_cast<double>(survey.types.size()));
   const double sums = 3 * 8 * static_cast<double>(setup.grid.size()) * types;
   const double columns =
       8 * static_cast<double>(setup.request.size()) * static_cast<double>(survey.particles[1]);
-  const double workers = 1 + std::max(1U, std::thread::hardware_concurrency());
+  const auto threads = std::max(1U, std::thread::hardware_concurrency());
+  const double workers = threads == 1 ? 1 : threads + 1;
   const double blocks = std::min(128., static_cast<double>(survey.steps.size()) / 16 + 1);
-  return workers * (sums + 2 * columns) + blocks * sums;
+  return program + workers * (sums + 1.5 * columns) + 2 * blocks * sums;
 }
 
 /// A TOML basic string.
@@ -89,7 +93,7 @@ std::string density_lines(const RunSetup& setup, const readers::LiggghtsLog& log
   if (setup.density_from == From::mass_column)
     return "# density: from the dumps' columns mass and radius\n";
   if (setup.density_from == From::unknown)
-    return "# density  = 2500                 # kg/m3: NOT KNOWN; without it no mass is written\n";
+    return "# density  = 2500   # kg/m3: NOT KNOWN; without it no mass is written\n";
   std::string values;
   for (const auto& [type, density] : log.density)
     values += fmt::format("{}{} = {}", values.empty() ? "" : ", ", type, density);
@@ -116,11 +120,11 @@ std::string scene_text(const RunSetup& setup, const readers::Survey& survey,
       survey.box.known ? "box of the first dump" : "extent of the first snapshot", survey.min[0],
       survey.min[1], survey.min[2], survey.max[0], survey.max[1], survey.max[2],
       vector_text(grid.min, setup), vector_text(grid.max, setup));
-  text += "up       = \"z\"                   # ASSUMED; against gravity\n";
+  text += "up       = \"z\"   # ASSUMED; against gravity\n";
   if (log.gravity)
     text += fmt::format("# gravity in {}: [{:.4g}, {:.4g}, {:.4g}] m/s2\n", log.path,
                         (*log.gravity)[0], (*log.gravity)[1], (*log.gravity)[2]);
-  text += "lateral  = \"x\"                   # ASSUMED; the third axis is averaged over\n";
+  text += "lateral  = \"x\"   # ASSUMED; the third axis is averaged over\n";
   text += fmt::format(
       "cells    = [{}, {}]             # ASSUMED: 3 particle diameters, {:.4g} x "
       "{:.4g} m\n",
@@ -128,8 +132,16 @@ std::string scene_text(const RunSetup& setup, const readers::Survey& survey,
       grid.width(analysis::up));
   text += fmt::format("periodic = [{}]\n", periodic_text(setup, survey));
   text += density_lines(setup, log) + radius_line(setup, log);
-  text += "average  = \"auto\"               # or { from = ..., to = ... } in s\n";
-  text += "mapping  = \"exact\"              # or centre, divided, gaussian\n";
+  text += "average  = \"auto\"   # or { from = ..., to = ... } in s\n";
+  text += "mapping  = \"exact\"   # or centre, divided, gaussian\n";
+  return text;
+}
+
+/// Twelve digits: without the last ones of a double, which nobody chose.
+std::string rounded(const std::vector<double>& lengths) {
+  std::string text;
+  for (const double length : lengths)
+    text += fmt::format("{}{:.12g}", text.empty() ? "" : ", ", length);
   return text;
 }
 
@@ -137,7 +149,7 @@ std::string products_text(const RunSetup& setup, const readers::Survey& survey) 
   const auto& clusters = setup.settings.clusters;
   std::string text = fmt::format(
       "\n[profiles]\nheights  = [{}]   # m, of the lateral profiles\nband     = {}   # m\n",
-      fmt::join(setup.heights, ", "), setup.band);
+      rounded(setup.heights), rounded({setup.band}));
   text += fmt::format("\n[clusters]\nthreshold = {}\ncore      = {}\nmin_area  = {}   # m2\n",
                       clusters.threshold, clusters.core, clusters.min_area);
   if (setup.has_temperature)
@@ -187,8 +199,12 @@ analysis::RunSettings settings_with_log(const std::string& path, const readers::
                                         const readers::LiggghtsLog& log) {
   auto settings = study_of_path(path).runs.front().settings;
   if (survey.has_radius) return settings;
+  std::map<int, double> radii;
   for (const auto& [type, range] : log.radius)
-    if (range[0] == range[1]) settings.radius.of_type[type] = range[0];
+    if (range[0] == range[1]) radii[type] = range[0];
+  for (const auto& [type, found] : survey.types)
+    if (!radii.contains(static_cast<int>(type))) return settings;
+  settings.radius.of_type = std::move(radii);
   return settings;
 }
 

@@ -27,7 +27,8 @@ struct Plan {
 Plan make_plan(const analysis::RunSettings& settings, const readers::Series& series,
                const readers::Survey& survey, const readers::LiggghtsLog& log);
 
-/// The settings of a bare path, with radii by type from the log where the dumps have none.
+/// The settings of a bare path, with radii from the log where the dumps have none and it
+/// has one for each type.
 analysis::RunSettings settings_with_log(const std::string& path, const readers::Survey& survey,
                                         const readers::LiggghtsLog& log);
 

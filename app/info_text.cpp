@@ -58,7 +58,7 @@ std::string solids_text(const InfoReport& report) {
     return text;
   };
   const auto& read = report.survey.read;
-  if (read.size() == 1) return end(read.front());
+  if (end(read.front()) == end(read.back())) return end(read.front());
   return fmt::format("{} first, {} last", end(read.front()), end(read.back()));
 }
 
@@ -136,11 +136,14 @@ std::string species_text(const readers::Survey& survey) {
     if (has_density) text += density;
     return text.substr(0, text.find_last_not_of(' ') + 1) + "\n";
   };
-  auto text = "\n" + row("types", "rows", "radius [m]", "mass [kg]", "density [kg/m3]");
+  std::string text = "\n";
+  text += row("types", "particles", "radius [m]", "mass [kg]", "density [kg/m3]");
   std::size_t shown = 0;
   for (const auto& [type, found] : survey.types) {
     if (++shown > most_types) break;
-    text += row(fmt::format("{}", type), fmt::format("{}", found.particles),
+    text += row(fmt::format("{}", type),
+                fmt::format("{:.6g}", static_cast<double>(found.particles) /
+                                          static_cast<double>(survey.snapshots_read)),
                 range_text(found.radius), range_text(found.mass),
                 range_text(found.density.any() ? found.density : found.implied_density));
   }
@@ -181,7 +184,7 @@ std::string log_text(const readers::LiggghtsLog& log) {
   return text;
 }
 
-std::string plan_text(const Plan& plan) {
+std::string plan_text(const Plan& plan, bool from_box) {
   std::string text = "\nanalyse would";
   if (!plan.setup) return fmt::format("{} stop: {}\n", text, plan.stops);
   const auto& setup = *plan.setup;
@@ -191,9 +194,10 @@ std::string plan_text(const Plan& plan) {
   const auto add = [&](std::string_view label, const std::string& value) {
     text += fmt::format("  {:<10}{}\n", label, value);
   };
-  add("domain", fmt::format("{:.6g} x {:.6g} x {:.6g} m (lateral, depth, up), {}", grid.length(0),
-                            grid.length(1), grid.length(2),
-                            "the box or extent of the first dump: give your own"));
+  add("domain",
+      fmt::format("{:.6g} x {:.6g} x {:.6g} m (lateral, depth, up), {}", grid.length(0),
+                  grid.length(1), grid.length(2),
+                  from_box ? "the box of the first dump" : "the extent of the first snapshot"));
   add("grid", fmt::format("{} x {} cells of {:.4g} x {:.4g} m", grid.cells[analysis::lateral],
                           grid.cells[analysis::up], grid.width(analysis::lateral),
                           grid.width(analysis::up)));
@@ -258,8 +262,14 @@ std::vector<Companions> companions_of(const std::vector<std::string>& left_out) 
 }
 
 std::string info_text(const InfoReport& report) {
-  return overview(report) + columns_text(report) + species_text(report.survey) +
-         log_text(report.log) + plan_text(report.plan) + findings_text(report);
+  auto text = overview(report) + columns_text(report) + species_text(report.survey) +
+              log_text(report.log) + plan_text(report.plan, report.survey.box.known) +
+              findings_text(report);
+  std::error_code ignored;
+  const auto here = std::filesystem::current_path(ignored).string() + "/";
+  for (auto at = text.find(here); at != text.npos && here.size() > 1; at = text.find(here, at))
+    text.erase(at, here.size());  // files below the current folder by the path from there
+  return text;
 }
 
 }  // namespace bedscope::app
