@@ -239,7 +239,7 @@ void set_heights(RunSetup& setup) {
 void update_times(RunSetup& setup, const readers::Series& series) {
   const auto& settings = setup.settings;
   setup.times.clear();
-  if (setup.time_step) {
+  if (setup.time_step && series.has_steps()) {
     for (std::size_t i = 0; i < series.size(); ++i)
       setup.times.push_back(static_cast<double>(series.step(i) - settings.step_zero) *
                             *setup.time_step);

@@ -25,8 +25,8 @@ Survey survey(const Series& series, bool full) {
   found.problems = series.problems();
   found.particles = {std::numeric_limits<std::int64_t>::max(), 0};
   for (std::size_t i = 0; i < series.size(); ++i) {
-    found.particles[0] = std::min(found.particles[0], series.located(i).particles);
-    found.particles[1] = std::max(found.particles[1], series.located(i).particles);
+    found.particles[0] = std::min(found.particles[0], series.particles(i));
+    found.particles[1] = std::max(found.particles[1], series.particles(i));
   }
   constexpr double infinity = std::numeric_limits<double>::infinity();
   found.radius = {infinity, -infinity};
@@ -46,7 +46,8 @@ Survey survey(const Series& series, bool full) {
   Scratch scratch;
   std::vector<std::uint64_t> marks;
   Flaws flaws;
-  for (const std::size_t i : chosen_snapshots(series.size(), full)) {
+  const std::size_t readable = series.named() ? series.size() : 0;
+  for (const std::size_t i : chosen_snapshots(readable, full)) {
     series.read(i, request, snapshot, scratch);
     ++found.snapshots_read;
     const auto& c = snapshot.columns;

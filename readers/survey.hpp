@@ -23,7 +23,8 @@ struct Survey {
   std::vector<std::string> problems;
 };
 
-/// Reads the rows of the first, the last and eight snapshots between, or of all (`full`).
+/// Reads the rows of the first, the last and eight snapshots between, or of all (`full`); of none
+/// where nobody named the columns.
 Survey survey(const Series& series, bool full);
 
 }  // namespace bedscope::readers
