@@ -153,7 +153,8 @@ std::string not_particles(const DumpGroup& group, DumpFolder& found) {
         if (scan.snapshots.empty() || scan.snapshots[0].parts == nullptr) return {};
         found.columns = *scan.snapshots[0].columns;
         found.parts = *scan.snapshots[0].parts;
-        if (scan.snapshots[0].particles > 0) return {};  // LPP's files of 0 particles have no arrays
+        if (scan.snapshots[0].particles > 0)
+          return {};  // LPP's files of 0 particles have no arrays
       }
       if (!instead.empty()) return instead;
     } catch (const CutError&) {

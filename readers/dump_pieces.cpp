@@ -86,8 +86,9 @@ bool are_pieces(const Form& form, const Pieces& pieces) {
 
 std::string listed(const std::set<std::int64_t>& numbers) {
   const auto shown = std::vector<std::int64_t>(
-      numbers.begin(), std::next(numbers.begin(), std::min<std::ptrdiff_t>(
-                                                      8, static_cast<std::ptrdiff_t>(numbers.size()))));
+      numbers.begin(),
+      std::next(numbers.begin(),
+                std::min<std::ptrdiff_t>(8, static_cast<std::ptrdiff_t>(numbers.size()))));
   return fmt::format("{}{}", fmt::join(shown, ", "), shown.size() < numbers.size() ? " ..." : "");
 }
 

@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t largest_index = std::size_t{64} << 20;  // 10^5 snapshots take 10 MB
-constexpr std::size_t deepest = 4;      // collection, blocks, pieces, file
+constexpr std::size_t deepest = 4;                            // collection, blocks, pieces, file
 constexpr std::size_t most_names = 1'000'000;  // blocks of blocks of blocks ask for any number
 
 std::string whole_text(const std::string& path) {
@@ -44,15 +44,16 @@ class Resolver {
       IndexedFile file{(fs::path(path).parent_path() / entry.name).lexically_normal().string(),
                        path, fmt::format("{} {}", form.name, entry.name), entry.offset};
       named_.push_back(file.path);
-      if (named_.size() > most_names) throw FormatError("{} and more are not accepted", file.place());
+      if (named_.size() > most_names)
+        throw FormatError("{} and more are not accepted", file.place());
       if (form.one_snapshot) require_below(entry.name, file);
       std::error_code ignored;
       if (!fs::exists(file.path, ignored)) {
         if (missing.empty()) missing = file.place() + " not found";
         continue;
       }
-      const bool joins = form.one_snapshot ? !found.empty()
-                                           : before != nullptr && before->time == entry.time;
+      const bool joins =
+          form.one_snapshot ? !found.empty() : before != nullptr && before->time == entry.time;
       if (!form.one_snapshot && joins && before->part == entry.part)
         throw FormatError("{}: time {} twice (part=\"{}\" both)", file.place(), entry.time,
                           entry.part);
@@ -72,9 +73,17 @@ class Resolver {
       throw FormatError("{} lies outside the folder of the index", file.place());
   }
 
+  static std::string head_of(const IndexedFile& file) {
+    try {
+      return read_head(file.path);
+    } catch (const Error& what) {
+      throw FormatError("{}: {}", file.place(), what.what());
+    }
+  }
+
   /// The file, or what it names where it is an index itself.
   void add_file(IndexedFile file, IndexedSnapshot& to) {
-    const auto* form = index_form(read_head(file.path));
+    const auto* form = index_form(head_of(file));
     if (form == nullptr) {
       to.files.push_back(std::move(file));
       return;

@@ -16,9 +16,9 @@ namespace bedscope::readers {
 
 /// A file as an index names it.
 struct IndexEntry {
-  std::string name;       ///< as it stands there, relative to the folder of the index
-  double time = unknown;  ///< [s]
-  std::string part;       ///< tells files of one time apart
+  std::string name;          ///< as it stands there, relative to the folder of the index
+  double time = unknown;     ///< [s]
+  std::string part;          ///< tells files of one time apart
   std::uint64_t offset = 0;  ///< where it stands in the text
 };
 

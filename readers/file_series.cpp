@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // ParaView's .series files (JSON), as foamToVTK writes them: names and times of many snapshots.
 //
-//   { "file-series-version" : "1.0", "files" : [ { "name" : "cloud_10.vtp", "time" : 0.001 }, ... ] }
+//   { "file-series-version" : "1.0", "files" : [ { "name" : "cloud_10.vtp", "time" : 0.001 }, ... ]
+//   }
 #include <nlohmann/json.hpp>
 
 #include "readers/error.hpp"
@@ -20,8 +21,7 @@ nlohmann::json parse(const std::string& path, std::string_view text) {
     return nlohmann::json::parse(text);
   } catch (const nlohmann::json::parse_error& error) {
     const auto line = line_of(text, std::min(error.byte, text.size()));
-    if (error.byte >= text.size())
-      throw CutError("{}: line {}: JSON ends early", path, line);
+    if (error.byte >= text.size()) throw CutError("{}: line {}: JSON ends early", path, line);
     throw FormatError("{}: line {}: JSON cannot be read at byte {}", path, line, error.byte);
   }
 }

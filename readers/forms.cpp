@@ -53,8 +53,7 @@ const Form& identify(const std::string& path, std::string_view head) {
     if (form->matches != nullptr && form->matches(head)) return *form;
   for (const auto& stranger : strangers)
     if (head.starts_with(stranger.begins)) throw FormatError("{}: {}", path, stranger.what);
-  if (is_xyz(head))
-    throw FormatError("{}: an xyz dump: it holds no radius; use dump custom", path);
+  if (is_xyz(head)) throw FormatError("{}: an xyz dump: it holds no radius; use dump custom", path);
   if (const auto type = xml_root_type(head); !type.empty())
     throw FormatError("{}: VTK XML of type {}, not particles", path, type);
   if (head.substr(0, 64).find("LIGGGHTS") != head.npos)

@@ -23,8 +23,12 @@ struct Located {
   std::int64_t step = no_step;  ///< no_step where the form stores none (VTK: the file's name tells)
   double time = unknown;        ///< [s], where the form stores it
   std::int64_t particles = 0;   ///< as declared
-  std::uint64_t offset = 0;     ///< [bytes] of the decompressed file
-  std::uint64_t bytes = 0;      ///< length of the snapshot, 0: to the end of the file
+  /// Copies of particles that another file of the snapshot owns (VTK's ghost points), counted in
+  /// `particles`; Series sets `without_ghosts` and takes them off where there are other files.
+  std::int64_t ghosts = 0;
+  bool without_ghosts = false;
+  std::uint64_t offset = 0;  ///< [bytes] of the decompressed file
+  std::uint64_t bytes = 0;   ///< length of the snapshot, 0: to the end of the file
   std::shared_ptr<const Checkpoint> checkpoint;  ///< where a gzip file can be entered near `offset`
   std::shared_ptr<const void>
       context;  ///< what scan() opened and read() needs again; the form's own

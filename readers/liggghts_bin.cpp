@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // LIGGGHTS (and LAMMPS) `dump custom` in binary: numbers as they lay in memory, all values double.
 //
-//   int64 step, particles; int32 triclinic, boundary[6]; double lo and hi of x, y, z [, xy, xz, yz];
-//   int32 columns, chunks; and for each chunk: int32 count, double[count], row after row.
+//   int64 step, particles; int32 triclinic, boundary[6]; double lo and hi of x, y, z [, xy, xz,
+//   yz]; int32 columns, chunks; and for each chunk: int32 count, double[count], row after row.
 //
 // Names of columns are not stored. LAMMPS since 2020 puts before it the negative length of a magic
 // text, the text, int32 endian mark and revision; revision 2 stores units, time and names behind
@@ -235,8 +235,7 @@ FileScan scan(const std::string& path, bool /*thorough*/) {
       skip_chunks(source, path, *header);
       auto located = locate(*header);
       located.bytes = source.position() - begin;
-      if (!located.named && found.unnamed.empty())
-        found.unnamed = "a binary dump names no columns";
+      if (!located.named && found.unnamed.empty()) found.unnamed = "a binary dump names no columns";
       found.snapshots.push_back(std::move(located));
     } catch (const CutError& error) {
       if (found.snapshots.empty()) throw;
@@ -275,10 +274,10 @@ void compare_twins(const std::string& path, const ColumnPlan& plan,
     const auto& b = raw[static_cast<std::size_t>(second)];
     for (std::size_t row = 0; row < a.size(); ++row)
       if (a[row] != b[row] && !(std::isnan(a[row]) && std::isnan(b[row])))
-        throw FormatError("{}: column \"{}\" twice with different values (row {}: {} and {})", path,
-                          names[static_cast<std::size_t>(
-                              plan.parse[static_cast<std::size_t>(first)])],
-                          row + 1, a[row], b[row]);
+        throw FormatError(
+            "{}: column \"{}\" twice with different values (row {}: {} and {})", path,
+            names[static_cast<std::size_t>(plan.parse[static_cast<std::size_t>(first)])], row + 1,
+            a[row], b[row]);
   }
 }
 

@@ -168,6 +168,11 @@ void Series::join(const DumpUnit& unit, std::vector<FileScan> scans) {
       continue;
     }
     require_same_columns(unit, parts);
+    for (auto& [file, where] : parts) {  // by itself a file is taken as it stands
+      if (parts.size() == 1 || where.ghosts == 0) continue;
+      where.particles -= where.ghosts;
+      where.without_ghosts = true;
+    }
     const auto& first = parts.front().where;
     Entry entry;
     entry.step_inside = first.step != no_step;
@@ -279,10 +284,12 @@ bool Series::order_by_time() {
                    [](const Entry& a, const Entry& b) { return a.time < b.time; });
   has_steps_ = numbered;
   for (std::size_t i = 1; numbered && has_steps_ && i < entries_.size(); ++i)
-    has_steps_ = entries_[i - 1].step < entries_[i].step || entries_[i - 1].time == entries_[i].time;
+    has_steps_ =
+        entries_[i - 1].step < entries_[i].step || entries_[i - 1].time == entries_[i].time;
   if (numbered && !has_steps_)
-    problems_.emplace_back("the numbers of the file names are not in the order of the times: "
-                           "sorted by time, steps unknown");
+    problems_.emplace_back(
+        "the numbers of the file names are not in the order of the times: "
+        "sorted by time, steps unknown");
   return true;
 }
 

@@ -29,8 +29,8 @@ class Series {
   /// Opens a file, all particle dumps of a folder, or those that match a pattern
   /// (`post/dump*.vtk`). Companion files (bounding boxes, wall meshes, contacts) are known by their
   /// content and left out; the pieces of one snapshot are put together (one file per processor, or
-  /// as a .pvtp, .pvtu, .pvd, .vtm or .series names them). Throws FileError, FormatError (a repeated
-  /// step names both places), InputError (two forms).
+  /// as a .pvtp, .pvtu, .pvd, .vtm or .series names them). Throws FileError, FormatError (a
+  /// repeated step names both places), InputError (two forms).
   static Series open(const std::string& where, const SeriesOptions& options = {});
 
   std::size_t size() const { return entries_.size(); }
@@ -95,8 +95,7 @@ class Series {
   bool order_by_time();
   void take_one_of_repeated(bool by_time);
   void compare_snapshots();
-  void read_more(const Entry& entry, const Request& request, Snapshot& out,
-                 Scratch& scratch) const;
+  void read_more(const Entry& entry, const Request& request, Snapshot& out, Scratch& scratch) const;
   std::string origin(const Entry& entry) const;
 
   SeriesOptions options_;
