@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <span>
 
 #include "readers/error.hpp"
 #include "readers/source.hpp"
@@ -22,9 +23,19 @@ constexpr std::size_t deepest = 4;                            // collection, blo
 constexpr std::size_t most_names = 1'000'000;  // blocks of blocks of blocks ask for any number
 
 std::string whole_text(const std::string& path) {
-  auto text = read_head(path, largest_index);
-  if (text.size() == largest_index)
-    throw FormatError("{}: an index of {} MB or more is not accepted", path, largest_index >> 20);
+  constexpr std::size_t piece = 1U << 16;
+  Source source(path);
+  std::string text;
+  std::size_t got = 0;
+  do {
+    text.resize(text.size() + piece);
+    got = source.read(std::span(text).last(piece));
+    text.resize(text.size() - piece + got);
+    if (text.size() > largest_index)
+      throw FormatError("{}: an index of more than {} MB is not accepted", path,
+                        largest_index >> 20);
+  } while (got == piece);
+  if (!source.cut().empty()) throw CutError("{}: {}", path, source.cut());
   return text;
 }
 
