@@ -169,7 +169,9 @@ struct LiveAnalysis::State {
 
   bool update() {
     const auto started = std::chrono::steady_clock::now();
-    auto found = readers::Series::open(settings.particles, {settings.repeated});
+    auto found = readers::Series::open(
+        settings.particles,
+        {.repeated = settings.repeated, .columns = settings.columns, .names_needed = true});
     const bool first_time = !series.has_value();
     if (!first_time && same_steps(found, *series)) return false;
     const bool goes_on = !first_time && continues(found);

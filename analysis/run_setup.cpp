@@ -33,7 +33,7 @@ class FirstRows {
   const std::vector<double>& column(std::size_t k) {
     if (snapshot_.columns.empty()) {
       std::size_t first = 0;
-      while (first + 1 < series_.size() && series_.located(first).particles == 0) ++first;
+      while (first + 1 < series_.size() && series_.particles(first) == 0) ++first;
       readers::Scratch scratch;
       series_.read(first, {{"x"}, {"y"}, {"z"}, {"radius", false}, {"type", false}}, snapshot_,
                    scratch);
@@ -265,7 +265,7 @@ void set_bubbles(RunSetup& setup) {
 void update_times(RunSetup& setup, const readers::Series& series) {
   const auto& settings = setup.settings;
   setup.times.clear();
-  if (setup.time_step) {
+  if (setup.time_step && series.has_steps()) {
     for (std::size_t i = 0; i < series.size(); ++i)
       setup.times.push_back(static_cast<double>(series.step(i) - settings.step_zero) *
                             *setup.time_step);

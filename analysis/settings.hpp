@@ -58,8 +58,9 @@ struct RunSettings {
   std::string label;
   std::string particles;  ///< file, folder or pattern
   readers::Repeated repeated = readers::Repeated::refuse;
-  std::optional<double> time_step;  ///< [s]; else from log.liggghts beside the dumps
-  bool time_required = true;        ///< false: without a time step go on, counting steps
+  std::vector<std::string> columns;  ///< their names, for dumps that store none
+  std::optional<double> time_step;   ///< [s]; else from log.liggghts beside the dumps
+  bool time_required = true;         ///< false: without a time step go on, counting steps
   std::int64_t step_zero = 0;
 
   std::optional<std::array<std::array<double, 3>, 2>>

@@ -430,7 +430,8 @@ StudyRun read_run(Table& table, RunSettings settings, const std::filesystem::pat
                  table.key("repeated"), *repeated);
     settings.repeated = *repeated == "first" ? readers::Repeated::first : readers::Repeated::last;
   }
-  for (const auto* key : {"columns", "gas", "decomposition"})
+  settings.columns = table.texts("columns").value_or(std::vector<std::string>{});
+  for (const auto* key : {"gas", "decomposition"})
     if (table.find(key) != nullptr)
       run.problems.push_back(fmt::format("key {} is not used by this version", key));
   table.finish();

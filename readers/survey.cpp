@@ -62,7 +62,7 @@ struct Columns {
 void survey_headers(const Series& series, Survey& found) {
   found.particles = {std::numeric_limits<std::int64_t>::max(), 0};
   for (std::size_t i = 0; i < series.size(); ++i) {
-    const auto count = series.located(i).particles;
+    const auto count = series.particles(i);
     found.steps.push_back(series.step(i));
     found.counts.push_back(count);
     if (!std::isnan(series.time(i))) found.times.push_back(series.time(i));
@@ -239,7 +239,7 @@ Survey survey(const Series& series, bool full) {
   found.problems = series.problems();
   survey_headers(series, found);
   RowSurvey rows(series, found);
-  const auto chosen = chosen_snapshots(series.size(), full);
+  const auto chosen = chosen_snapshots(series.named() ? series.size() : 0, full);
   for (std::size_t k = 0; k < chosen.size(); ++k)
     rows.add(chosen[k], k == 0 || k == chosen.size() / 2 || k + 1 == chosen.size());
   rows.finish();

@@ -96,7 +96,8 @@ struct Survey {
 };
 
 /// Reads the rows of the first, the last and eight snapshots between, or of all (`full`); every
-/// column once. Overlaps are looked for in the first, the middle and the last of those.
+/// column once; of none where nobody named the columns. Overlaps are looked for in the first, the
+/// middle and the last of those.
 Survey survey(const Series& series, bool full);
 
 }  // namespace bedscope::readers
