@@ -8,15 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "analysis/estimate.hpp"
+#include "analysis/gas_result.hpp"
 #include "analysis/grid.hpp"
 
 namespace bedscope::analysis {
-
-/// A mean and the half-width of its 95 % confidence interval, in the unit of the quantity.
-struct Estimate {
-  double value = std::numeric_limits<double>::quiet_NaN();
-  double ci95 = std::numeric_limits<double>::quiet_NaN();
-};
 
 /// A time-averaged curve: holdup [-], solids velocity along `up` [m/s], mass flux [kg/m2/s] at
 /// `coordinate` (cell centres [m]); all vectors of one length.
@@ -130,6 +126,8 @@ struct RunResult {
   std::vector<OccurrenceSample> occurrence;  ///< every snapshot
   std::vector<Cluster> clusters;             ///< inside the window, by snapshot
   std::vector<Frame> frames;                 ///< a few snapshots of the window, evenly spread
+
+  GasResult gas;
 
   Estimate mean_holdup;      ///< of the domain, over the window [-]
   Estimate inventory_mass;   ///< over the window [kg]

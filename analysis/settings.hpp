@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/gas_settings.hpp"
 #include "analysis/result.hpp"
 #include "readers/series.hpp"
 
@@ -80,6 +81,7 @@ struct RunSettings {
   std::string temperature_column = "temperature";
   std::optional<std::array<double, 2>> temperature;  ///< made 0 and 1 in the PDF [K]
   int temperature_bins = 25;
+  GasSettings gas;
 };
 
 }  // namespace bedscope::analysis

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "analysis/csv.hpp"
+#include "analysis/gas_tables.hpp"
 #include "readers/error.hpp"
 
 namespace bedscope::analysis {
@@ -124,6 +125,8 @@ void write_tables(std::span<const RunResult> runs, const std::filesystem::path& 
   write_inventory(runs, folder / "inventory.csv");
   write_clusters(runs, folder / "clusters.csv");
   write_occurrence(runs, folder / "cluster_occurrence.csv");
+
+  write_gas_tables(runs, folder);
 
   const bool temperature = std::any_of(
       runs.begin(), runs.end(), [](const RunResult& run) { return !run.temperature.empty(); });
