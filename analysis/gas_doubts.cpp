@@ -3,9 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numeric>
+#include <vector>
 
 #include "analysis/gas_run.hpp"
 
@@ -18,8 +17,8 @@ constexpr double fair_ratio = 0.01;
 constexpr double fair_difference = 0.5;
 /// A shift is believed where it leaves less than this share of the squared difference.
 constexpr double better = 0.6;
-constexpr std::ptrdiff_t furthest = 3;  // shift tried, in times of the gas
-constexpr std::size_t tried = 8;        // snapshots
+constexpr std::ptrdiff_t most_shift = 10;  // times of the gas
+constexpr std::size_t most_tried = 8;      // snapshots
 
 }  // namespace
 
@@ -41,11 +40,12 @@ void GasRun::tell_cover(RunResult& result) const {
         "proportions, an approximation");
 }
 
-void GasRun::tell_ratio(RunResult& result) const {
+/// True where the sides disagree by a constant factor, which explains all other differences.
+bool GasRun::tell_ratio(RunResult& result) const {
   const auto& gas = result.gas;
   const double ratio = gas.voidage_ratio.value;
   const double noise = std::isfinite(gas.voidage_ratio.ci95) ? gas.voidage_ratio.ci95 : 0;
-  if (!std::isfinite(ratio) || std::abs(ratio - 1) <= std::max(fair_ratio, noise)) return;
+  if (!std::isfinite(ratio) || std::abs(ratio - 1) <= std::max(fair_ratio, noise)) return false;
   double sum = 0, squares = 0;
   for (const auto& check : gas.checks) {
     sum += check.ratio();
@@ -53,16 +53,18 @@ void GasRun::tell_ratio(RunResult& result) const {
   }
   const auto n = static_cast<double>(gas.checks.size());
   const double spread = std::sqrt(std::max(0., squares / n - (sum / n) * (sum / n)));
-  std::string why;
-  if (gas.checks.size() > 1 && spread > fair_ratio * ratio)
-    why = "it changes in time: another clock or run, or solids that one side does not see";
-  else
-    why = fmt::format(
-        "it is constant: the radius is off by a factor of {:.3g}, the sides have different scales "
-        "or domains, or the solver limits its voidage",
-        std::cbrt(ratio));
+  const bool changes = gas.checks.size() > 1 && spread > fair_ratio * ratio;
+  const auto why =
+      changes ? std::string(
+                    "it changes in time: another clock or run, or solids that one side does not "
+                    "see")
+              : fmt::format(
+                    "it is constant: the radius is off by a factor of {:.3g}, the sides have "
+                    "different scales or domains, or the solver limits its voidage",
+                    std::cbrt(ratio));
   result.problems.push_back(fmt::format(
       "gas: the particles' volume is {:.3f} of what the voidage leaves for them ({})", ratio, why));
+  return !changes;
 }
 
 void GasRun::tell_shift(const readers::Series& particles, RunResult& result) const {
@@ -74,13 +76,15 @@ void GasRun::tell_shift(const readers::Series& particles, RunResult& result) con
   }
   if (checks.empty() || rms <= fair_difference * spread) return;
   // Snapshots around which all shifted times are there, so that all shifts see the same ones.
+  const auto furthest = std::clamp<std::ptrdiff_t>(std::ssize(times_) / 3, 1, most_shift);
   std::vector<std::size_t> snapshots;
   for (const auto& check : checks) {
     const auto n = static_cast<std::ptrdiff_t>(gas_of_[check.snapshot]);
     if (n >= furthest && n + furthest < std::ssize(times_)) snapshots.push_back(check.snapshot);
   }
-  std::array<double, 2 * furthest + 1> squares{}, shifts{};
-  const std::size_t count = std::min(snapshots.size(), tried);
+  const auto middle = static_cast<std::size_t>(furthest);
+  std::vector<double> squares(2 * middle + 1), shifts(2 * middle + 1);
+  const std::size_t count = std::min(snapshots.size(), most_tried);
   SnapshotProduct product;
   ProductScratch scratch;
   GasScratch gas_scratch;
@@ -99,13 +103,13 @@ void GasRun::tell_shift(const readers::Series& particles, RunResult& result) con
   }
   const auto best =
       static_cast<std::size_t>(std::min_element(squares.begin(), squares.end()) - squares.begin());
-  if (count > 0 && squares[best] < better * squares[furthest])
+  if (count > 0 && squares[best] < better * squares[middle])
     result.problems.push_back(fmt::format(
         "gas: the fields fit the particles best {:.3g} s {} (rms difference {:.2g} instead of "
         "{:.2g}): step_zero or time_step?",
         std::abs(shifts[best]), shifts[best] > 0 ? "later" : "earlier",
         std::sqrt(squares[best] / static_cast<double>(count)),
-        std::sqrt(squares[furthest] / static_cast<double>(count))));
+        std::sqrt(squares[middle] / static_cast<double>(count))));
   else
     result.problems.push_back(
         fmt::format("gas: voidage and particles differ by {:.0f} % of the holdup's own spread: do "

@@ -19,7 +19,8 @@ struct GasProfile {
   std::vector<Estimate> slip_z;       ///< gas less solids velocity of the same window [m/s]
 };
 
-/// Time-averaged fields on the analysis grid, as the solids' MeanFields; NaN where no gas cell is.
+/// Time-averaged fields on the analysis grid, as the solids' MeanFields; NaN where no gas cell is,
+/// empty where the run has no such field.
 struct GasFields {
   std::vector<double> voidage, velocity_x, velocity_z, temperature, pressure;
 };

@@ -63,7 +63,8 @@ void write_gas_group(Hdf5Group group, const RunResult& run, const Shape& shape) 
   }
   Hdf5Group fields = group.group("fields");
   for (const GasField& field : all_gas_fields)
-    fields.write(field.name, gas.fields.*field.values, field.unit, shape);
+    if (!(gas.fields.*field.values).empty())
+      fields.write(field.name, gas.fields.*field.values, field.unit, shape);
   write_checks(group.group("voidage_check"), gas.checks);
   if (gas.has_pressure) write_pressure(group.group("pressure_drop"), gas.pressure);
   const auto estimate = [&](const char* name, const Estimate& value, const char* unit) {

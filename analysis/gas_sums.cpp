@@ -74,20 +74,24 @@ void GasSums::add(const GasProduct& product, double weight) {
   ++times_;
 }
 
-void GasSums::fields_of(std::size_t cells, GasFields& fields) const {
-  for (auto* values : {&fields.voidage, &fields.velocity_x, &fields.velocity_z, &fields.temperature,
-                       &fields.pressure})
-    values->assign(cells, undefined);
+void GasSums::fields_of(std::size_t cells, GasResult& gas) const {
+  auto& fields = gas.fields;
+  fields.voidage.assign(cells, undefined);
+  if (gas.has_velocity) fields.velocity_x = fields.velocity_z = fields.voidage;
+  if (gas.has_temperature) fields.temperature = fields.voidage;
+  if (gas.has_pressure) fields.pressure = fields.voidage;
   const auto sum = fields_.total();
   if (sum.slots.empty()) return;
-  const double* q = sum.slots[0].data();
-  for (std::size_t c = 0; c < cells; ++c, q += gas_quantities) {
-    fields.voidage[c] = ratio(q[gas_volume], q[gas_covered]);
-    fields.velocity_x[c] = ratio(q[gas_flux_x], q[gas_with_u]);
-    fields.velocity_z[c] = ratio(q[gas_flux_z], q[gas_with_u]);
-    fields.temperature[c] = ratio(q[gas_heat], q[gas_with_t]);
-    fields.pressure[c] = ratio(q[gas_pressure], q[gas_with_p]);
-  }
+  const double* const q = sum.slots[0].data();
+  const auto fill = [&](std::vector<double>& values, std::size_t numerator, std::size_t with) {
+    for (std::size_t c = 0; c < values.size(); ++c)
+      values[c] = ratio(q[gas_quantities * c + numerator], q[gas_quantities * c + with]);
+  };
+  fill(fields.voidage, gas_volume, gas_covered);
+  fill(fields.velocity_x, gas_flux_x, gas_with_u);
+  fill(fields.velocity_z, gas_flux_z, gas_with_u);
+  fill(fields.temperature, gas_heat, gas_with_t);
+  fill(fields.pressure, gas_pressure, gas_with_p);
 }
 
 void GasSums::finish(const RunSetup& run, RunResult& result) const {
@@ -109,7 +113,7 @@ void GasSums::finish(const RunSetup& run, RunResult& result) const {
     }
     result.gas.lateral.push_back(std::move(profile));
   }
-  fields_of(grid.size(), result.gas.fields);
+  fields_of(grid.size(), result.gas);
   const auto points = nz + nx * run.heights.size();
   if (few > 0)
     result.problems.push_back(

@@ -27,7 +27,7 @@ class GasSums {
   void finish(const RunSetup& run, RunResult& result) const;
 
  private:
-  void fields_of(std::size_t cells, GasFields& fields) const;
+  void fields_of(std::size_t cells, GasResult& gas) const;
 
   Leaves fields_{4, 0}, profiles_{0, 64};  // as those of the solids, see run_sums.cpp
   std::int64_t not_finite_ = 0, beyond_ = 0;
