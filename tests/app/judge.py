@@ -23,6 +23,7 @@ import tomllib
 try:
     import numpy as np
     import scipy.ndimage
+    import judge_gas
 except ImportError as missing:
     print("skipped:", missing)
     sys.exit(77)
@@ -206,6 +207,9 @@ def settings_of(study_path):
         s["depth"] = 3 - s["up"] - s["lateral"]
         s["periodic"] = ["xyz".index(axis) for axis in s["periodic"]]
         s["particles"] = os.path.join(folder, run["particles"])
+        if "gas" in run:
+            s["gas"] = os.path.join(folder, run["gas"])
+            s["gas_names"] = study.get("gas", {})
         s["profiles"] = study.get("profiles", {})
         s["clusters"] = {"threshold": 0.2, "core": 0.4, "min_area": 60e-6} | study.get("clusters", {})
         s["temperature"] = study.get("temperature", {})
@@ -384,6 +388,10 @@ def recompute(s):
                "inventory_kg": inventory, "mean_occurrence": occurrence,
                "outside_fraction": outside / whole if whole else NAN,
                "from": times[window[0]], "to": times[window[-1]]}
+    if "gas" in s:
+        gas, of_gas = judge_gas.recompute(sys.modules[__name__], s, snapshots, grid, times, window, tables)
+        tables |= gas
+        summary |= of_gas
     return tables, summary
 
 
@@ -401,7 +409,7 @@ KEYS = {
     "cluster_occurrence": ["run", "time [s]"],
     "temperature": ["run", "time [s]", "type"],
     "temperature_pdf": ["run", "type", "bin_centre [-]"],
-}
+} | judge_gas.KEYS
 HEADERS = {
     "axial_profile": "run,type,z [m],holdup [-],holdup_ci95 [-],velocity_z [m/s],velocity_z_ci95 [m/s],mass_flux_z [kg/m2/s],mass_flux_z_ci95 [kg/m2/s]",
     "lateral_profile": "run,type,height [m],x [m],holdup [-],holdup_ci95 [-],velocity_z [m/s],velocity_z_ci95 [m/s],mass_flux_z [kg/m2/s],mass_flux_z_ci95 [kg/m2/s]",
@@ -410,7 +418,7 @@ HEADERS = {
     "cluster_occurrence": "run,time [s],clusters,area_fraction [-]",
     "temperature": "run,time [s],type,mean [K],std [K],min [K],max [K]",
     "temperature_pdf": "run,type,bin_centre [-],probability_density [-]",
-}
+} | judge_gas.HEADERS
 TEXT_KEYS = {"run", "type"}
 
 
@@ -473,7 +481,7 @@ class Judge:
                     continue
                 # sums of positive and negative velocities, and slivers of spheres, are as exact as
                 # the largest terms in them
-                signed = column.startswith(("velocity", "mass_flux", "angle", "mean_height"))
+                signed = column.startswith(("velocity", "mass_flux", "angle", "mean_height", "slip"))
                 scale = largest.get(column, 0) * (1e-3 if signed else 1e-6)
                 self.number(f"{name}: {column}", key, value, found[key][column], max(scale, 1e-300))
             for column in row_intervals(found[key]):
@@ -490,7 +498,7 @@ class Judge:
 
     def summary(self, where, expected, found):
         for key, value in expected.items():
-            if isinstance(value, str) or key == "snapshots":
+            if isinstance(value, str) or key in ("snapshots", "gas_times", "gas_matched"):
                 if found.get(key) != value:
                     self.fault("summary", f"{where} {key}: expected {value}, found {found.get(key)}")
             else:
