@@ -106,10 +106,11 @@ void for_each_in_order(std::size_t first, std::size_t last, int threads, Make&& 
 template <class Take>
 void for_each_product(const RunSetup& setup, const readers::Series& series, const GasRun* gas,
                       std::size_t first, std::size_t last, int threads, Take&& take) {
+  const auto matched = gas == nullptr ? std::vector<std::size_t>{} : gas->unchecked();
   const auto make = [&](std::size_t i, Item& item) {
     make_product(setup, series, i, item.product, item.scratch);
     item.check.reset();
-    if (gas == nullptr || !gas->wants_check(i)) return;
+    if (!std::binary_search(matched.begin(), matched.end(), i)) return;
     gas->make_check(item.product, item.check.emplace(), item.gas_scratch);
   };
   for_each_in_order<Item>(first, last, threads, make, take);

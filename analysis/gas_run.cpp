@@ -32,6 +32,9 @@ bool GasRun::continues(const GasSource& old) const {
 }
 
 void GasRun::set_series(readers::GasSeries series) {
+  if (!run_->time_known)
+    throw InputError("run \"{}\": gas: time_step is missing, which puts particles on its clock",
+                     run_->settings.label);
   const auto old = std::move(source_);
   source_ = std::make_unique<GasSource>(*run_, std::move(series));
   if (old && !continues(*old)) {
@@ -68,10 +71,6 @@ void GasRun::match() {
   }
 }
 
-bool GasRun::wants_check(std::size_t snapshot) const {
-  return gas_of_[snapshot] != none && !checks_.contains(snapshot);
-}
-
 void GasRun::make_check(const SnapshotProduct& product, VoidageCheck& check,
                         GasScratch& scratch) const {
   check.snapshot = product.snapshot;
@@ -82,7 +81,7 @@ void GasRun::make_check(const SnapshotProduct& product, VoidageCheck& check,
 std::vector<std::size_t> GasRun::unchecked() const {
   std::vector<std::size_t> late;
   for (std::size_t i = 0; i < gas_of_.size(); ++i)
-    if (wants_check(i)) late.push_back(i);
+    if (gas_of_[i] != none && !checks_.contains(i)) late.push_back(i);
   return late;
 }
 
@@ -100,6 +99,7 @@ void GasRun::begin_window(const Window& window) {
     next_ = range.first;
   }
   next_ = std::max(next_, range.first);
+  start_ = next_;
   first_ = range.first;
   last_ = last;
   weights_ = time_weights(std::span(times_).subspan(first_, last_ - first_));
@@ -110,19 +110,19 @@ std::vector<std::size_t> GasRun::todo() const {
   std::vector<std::size_t> list;
   const bool pressure = !source_->setup().fields.pressure.empty();
   for (std::size_t n = 0; n < times_.size(); ++n)
-    if ((in_window(n) && n >= next_) || (pressure && !drops_.contains(n))) list.push_back(n);
+    if (to_average(n) || (pressure && !drops_.contains(n))) list.push_back(n);
   return list;
 }
 
 void GasRun::make_product(std::size_t n, GasProduct& product, GasScratch& scratch) const {
-  source_->make_product(places_[n], in_window(n) && n >= next_, product, scratch);
+  source_->make_product(places_[n], to_average(n), product, scratch);
   product.time = n;
 }
 
 void GasRun::add_product(const GasProduct& product) {
   const auto n = product.time;
   drops_[n] = product.pressure_drop;
-  if (!in_window(n) || n < next_) return;
+  if (!to_average(n)) return;
   const double weight = weights_[n - first_];
   if (n + 1 == last_) {  // a successor would change its weight
     complete_ = sums_;

@@ -11,10 +11,11 @@
 
 namespace bedscope::analysis {
 
-/// Used in this order, as often as the run grows: set_series; for the snapshots that are read
-/// anyway wants_check, make_check, add_check; when the particles' window is known begin_window;
-/// for what unchecked() and todo() name make_..., add_...; finish. make_... are const and safe in
-/// several threads; add_... take what they made in ascending order.
+/// Used in this order, as often as the run grows: set_series; make_check and
+/// add_check for the snapshots of unchecked() as far as they are read anyway, and for those that
+/// are left; when the particles' window is known begin_window, then make_product and add_product
+/// for the times of todo(); finish. make_... are const and safe in several threads; add_... take
+/// what they made in ascending order.
 ///
 /// Time: a gas time and a snapshot coincide where they are within half a time step of the particles
 /// or 1e-6 of the gap between gas times, whichever is more. The window of the gas is that of the
@@ -28,10 +29,9 @@ class GasRun {
   /// Also to be called when the particles have grown. Throws what set_up_gas does.
   void set_series(readers::GasSeries series);
 
-  bool wants_check(std::size_t snapshot) const;
   void make_check(const SnapshotProduct& product, VoidageCheck& check, GasScratch& scratch) const;
   void add_check(const VoidageCheck& check) { checks_[check.snapshot] = check; }
-  /// Matched snapshots that were read before their gas was there.
+  /// Matched snapshots whose check is not there yet, ascending.
   std::vector<std::size_t> unchecked() const;
 
   /// Takes the window of the particles from a finished result.
@@ -50,7 +50,7 @@ class GasRun {
   bool continues(const GasSource& old) const;
   void match();
   bool in_window(std::size_t n) const { return n >= first_ && n < last_; }
-  std::vector<double> window_weights() const;
+  bool to_average(std::size_t n) const { return in_window(n) && n >= start_; }
   void checks_of(RunResult& result) const;
   void pressures_of(RunResult& result) const;
   void tell_cover(RunResult& result) const;
@@ -68,6 +68,7 @@ class GasRun {
 
   std::size_t first_ = 0, last_ = 0;  // of the window
   std::vector<double> weights_;       // of its times
+  std::size_t start_ = 0;             // from here on times were not in sums_ when it began
   std::size_t next_ = 0;              // the first time that is not in sums_
   GasSums sums_;                      // of times whose weights are final: all but the last
   GasSums complete_;
