@@ -109,8 +109,9 @@ class GasNumbers(GasCommand):
         superficial = [float(row["velocity_z [m/s]"]) * float(row["voidage [-]"]) for row in self.rows("gas_axial")]
         self.assertEqual(len(velocities), 314)
         # what comes in below, 5.55 m/s, goes up all the way to the outlet (z > 1.502 m)
-        for flow in superficial[:290]:
-            self.assertAlmostEqual(flow, 5.55, delta=0.15)
+        # (at one instant a layer that fills or empties passes a little less or more)
+        self.assertAlmostEqual(np.mean(superficial[:300]), 5.55, delta=0.02)
+        self.assertLess(max(abs(flow - 5.55) for flow in superficial[:300]), 0.25)
 
 
 class GasAgainstParticles(GasCommand):
