@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// A mean and its error, the form of every averaged number.
 #pragma once
 
 #include <limits>

@@ -95,9 +95,9 @@ std::vector<Signal> pressure_probes(const RunSettings& settings,
   auto table = readers::open_foam_table(settings.probes, "p");
   problems.insert(problems.end(), table.problems.begin(), table.problems.end());
   problems.push_back(
-      settings.gas_density
+      settings.gas.density
           ? fmt::format("probes: p is taken as p/rho and multiplied by gas_density, {} kg/m3",
-                        *settings.gas_density)
+                        *settings.gas.density)
           : "probes: p is taken as Pa; where it is p/rho, the key gas_density makes it so");
   std::vector<Signal> signals;
   for (auto& column : table.columns) {
@@ -107,7 +107,7 @@ std::vector<Signal> pressure_probes(const RunSettings& settings,
       const auto& place = table.points[*column.point].place;
       signal.name = fmt::format("p at ({} {} {}) m", place[0], place[1], place[2]);
     }
-    for (double& value : signal.values) value *= settings.gas_density.value_or(1);
+    for (double& value : signal.values) value *= settings.gas.density.value_or(1);
     signals.push_back(std::move(signal));
   }
   return signals;

@@ -12,6 +12,7 @@
 #include "analysis/bed_result.hpp"
 #include "analysis/cluster_result.hpp"
 #include "analysis/estimate.hpp"
+#include "analysis/gas_result.hpp"
 #include "analysis/grid.hpp"
 
 namespace bedscope::analysis {
@@ -102,6 +103,8 @@ struct RunResult {
   std::optional<Bubbles> bubbles;         ///< where the study asks for them
   std::vector<Fluctuation> fluctuations;  ///< of the signals that the study asks for
   std::vector<Frame> frames;              ///< a few snapshots of the window, evenly spread
+
+  GasResult gas;
 
   Estimate mean_holdup;      ///< of the domain, over the window [-]
   Estimate inventory_mass;   ///< over the window [kg]

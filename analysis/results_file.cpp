@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "analysis/bed_tables.hpp"
+#include "analysis/gas_results_file.hpp"
 #include "analysis/hdf5_file.hpp"
 #include "readers/error.hpp"
 
@@ -246,6 +247,7 @@ void write_run(Hdf5Group group, const RunResult& run) {
   }
   write_bed_groups(group, run);
   write_frames(group.group("frames"), run);
+  if (run.gas.present) write_gas_group(group.group("gas"), run, field_shape(run.grid));
 }
 
 // The points of the image along an axis, see write_results_file.
@@ -286,19 +288,22 @@ void write_image(Hdf5Group group, std::span<const RunResult> runs,
 
   Hdf5Group data = group.group("PointData");
   std::vector<std::string> taken;
-  for (const std::size_t member : members)
+  for (const std::size_t member : members) {
+    const auto write = [&](std::string name, const std::vector<double>& values, const char* unit) {
+      if (values.size() != grid.size()) return;
+      if (runs.size() > 1) name += " [" + runs[member].label + "]";
+      name = hdf5_name(name);
+      while (std::find(taken.begin(), taken.end(), name) != taken.end()) name += '_';
+      taken.push_back(name);
+      data.write(name, image_values(grid, values), unit, shape);
+    };
     for (const SpeciesResult& species : runs[member].species)
-      for (const Field& field : all_fields) {
-        const std::vector<double>& values = species.fields.*field.values;
-        if (values.size() != grid.size()) continue;
-        std::string name = field.name;
-        if (species.type != "all") name += " of " + species.type;
-        if (runs.size() > 1) name += " [" + runs[member].label + "]";
-        name = hdf5_name(name);
-        while (std::find(taken.begin(), taken.end(), name) != taken.end()) name += '_';
-        taken.push_back(name);
-        data.write(name, image_values(grid, values), field.unit, shape);
-      }
+      for (const Field& field : all_fields)
+        write(species.type == "all" ? field.name : field.name + (" of " + species.type),
+              species.fields.*field.values, field.unit);
+    for (const GasField& field : all_gas_fields)
+      write(field.name, runs[member].gas.fields.*field.values, field.unit);
+  }
 }
 
 // The runs that have fields, those on one grid together, in the order of their first.

@@ -292,7 +292,6 @@ void make_product(const RunSetup& setup, const readers::Series& series, std::siz
   out.volume = out.volume_inside = 0;
   out.without_temperature = 0;
   out.flaws = {};
-  out.error = nullptr;
   series.read(i, ids_wanted(i, series.size()) ? setup.request : setup.request_without_id,
               scratch.snapshot, scratch.reader);
   out.bytes_read = scratch.snapshot.bytes_read;

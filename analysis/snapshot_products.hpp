@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <exception>
 #include <vector>
 
 #include "analysis/bed_height.hpp"
@@ -93,7 +92,6 @@ struct SnapshotProduct {
   std::vector<double> holdup;  ///< depth-averaged, all types
   readers::Flaws flaws;
   std::uint64_t bytes_read = 0;
-  std::exception_ptr error;  ///< what stopped it; thrown again in the order of the series
 };
 
 /// Buffers of one worker.

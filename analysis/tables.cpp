@@ -11,6 +11,7 @@
 
 #include "analysis/bed_tables.hpp"
 #include "analysis/csv.hpp"
+#include "analysis/gas_tables.hpp"
 #include "analysis/output_file.hpp"
 
 namespace bedscope::analysis {
@@ -119,6 +120,8 @@ void write_tables(std::span<const RunResult> runs, const std::filesystem::path& 
   write_clusters(runs, folder / "clusters.csv");
   write_occurrence(runs, folder / "cluster_occurrence.csv");
   write_bed_tables(runs, folder);
+
+  write_gas_tables(runs, folder);
 
   const bool temperature = std::any_of(
       runs.begin(), runs.end(), [](const RunResult& run) { return !run.temperature.empty(); });

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <numeric>
 #include <set>
 #include <sstream>
@@ -328,7 +329,8 @@ void read_scene(Table& table, RunSettings& settings) {
   }
   by_type(table, "density", settings.density);
   by_type(table, "radius", settings.radius);
-  if (const auto density = table.positive("gas_density")) settings.gas_density = density;
+  if (const auto density = table.positive("gas_density")) settings.gas.density = density;
+  settings.gas.gravity = table.positive("gravity").value_or(settings.gas.gravity);
   if (auto species = table.table("species")) {
     settings.species.clear();
     for (const auto& [name, node] : species->raw()) {
@@ -398,6 +400,35 @@ void read_products(Table& study, RunSettings& settings) {
     settings.temperature_bins = static_cast<int>(bins);
     temperature->finish();
   }
+  if (auto gas = study.table("gas")) {
+    auto& fields = settings.gas.fields;
+    fields.voidage = gas->text("voidage").value_or("");
+    fields.solids = gas->text("solids").value_or("");
+    if (!fields.voidage.empty() && !fields.solids.empty())
+      gas->fail(*gas->find("solids"), "gas.voidage and gas.solids: expected one of them");
+    fields.velocity = gas->text("velocity").value_or("");
+    fields.pressure = gas->text("pressure").value_or("");
+    fields.temperature = gas->text("temperature").value_or("");
+    settings.gas.options.region = gas->text("region").value_or("");
+    gas->finish();
+  }
+}
+
+readers::Decomposition decomposition(Table& table, const std::string& name) {
+  using readers::Decomposition;
+  static const std::map<std::string, Decomposition> all{
+      {"automatic", Decomposition::automatic},
+      {"collated", Decomposition::collated},
+      {"processors", Decomposition::processors},
+      {"reconstructed", Decomposition::reconstructed},
+      {"separate", Decomposition::separate}};
+  const auto found = all.find(name);
+  if (found == all.end())
+    table.fail(*table.find("decomposition"),
+               "{}: expected automatic, reconstructed, processors, separate or collated, found "
+               "\"{}\"",
+               table.key("decomposition"), name);
+  return found->second;
 }
 
 StudyRun read_run(Table& table, RunSettings settings, const std::filesystem::path& folder,
@@ -431,9 +462,14 @@ StudyRun read_run(Table& table, RunSettings settings, const std::filesystem::pat
     settings.repeated = *repeated == "first" ? readers::Repeated::first : readers::Repeated::last;
   }
   settings.columns = table.texts("columns").value_or(std::vector<std::string>{});
-  for (const auto* key : {"gas", "decomposition"})
-    if (table.find(key) != nullptr)
-      run.problems.push_back(fmt::format("key {} is not used by this version", key));
+  if (const auto gas = table.text("gas")) {
+    if (tables)
+      table.fail(*table.find("gas"), "run \"{}\": gas: expected particles beside it, found tables",
+                 settings.label);
+    settings.gas.path = in_folder(*gas);
+  }
+  if (const auto name = table.text("decomposition"))
+    settings.gas.options.decomposition = decomposition(table, *name);
   table.finish();
   run.settings = std::move(settings);
   return run;

@@ -52,8 +52,16 @@ std::string constant(std::string_view text) {
 
 }  // namespace
 
+namespace {
+/// Braces where there is more than one letter behind the `_`.
+std::string subscript(std::string_view part) {
+  return part.size() > 2 ? fmt::format("_{{{}}}", part.substr(1)) : std::string(part);
+}
+}  // namespace
+
 std::string literal(std::string_view text) {
-  static constexpr std::array<std::string_view, 6> symbols{"x", "z", "t", "φ", "v_z", "G_z"};
+  static constexpr std::array<std::string_view, 11> symbols{"x", "z",   "t", "φ",     "v_z", "G_z",
+                                                            "ε", "u_z", "p", "p_top", "T"};
   std::string result;
   for (bool first = true; !text.empty(); first = false) {
     const std::size_t end = std::min(text.find(' '), text.size());
@@ -61,7 +69,8 @@ std::string literal(std::string_view text) {
     const bool symbol = std::find(symbols.begin(), symbols.end(), word) != symbols.end();
     const std::size_t letter = std::min(word.find('_'), word.size());
     if (!first) result += ' ';
-    result += symbol ? fmt::format("{{/:Italic {}}}{}", word.substr(0, letter), word.substr(letter))
+    result += symbol ? fmt::format("{{/:Italic {}}}{}", word.substr(0, letter),
+                                   subscript(word.substr(letter)))
                      : std::string(word);
     text.remove_prefix(std::min(end + 1, text.size()));
   }

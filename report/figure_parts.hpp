@@ -24,6 +24,7 @@ Figure fields_figure(Runs runs);
 Figure axial_figure(Runs runs);
 Figure axial_species_figure(Runs runs);
 std::vector<Figure> lateral_figures(Runs runs);
+std::vector<Figure> gas_figures(Runs runs);  ///< none where no run has gas
 Figure inventory_figure(Runs runs);
 Figure occurrence_figure(Runs runs);
 Figure clusters_lateral_figure(Runs runs);

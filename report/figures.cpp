@@ -24,7 +24,8 @@ namespace {
 constexpr std::array figure_names{
     "fields",     "axial_holdup", "axial_holdup_species", "lateral",     "inventory",
     "occurrence", "snapshots",    "clusters_lateral",     "temperature", "temperature_pdf",
-    "bed_height", "bubbles",      "bubble_profile",       "spectra"};
+    "bed_height", "bubbles",      "bubble_profile",       "spectra",     "gas_axial",
+    "gas_lateral"};
 
 /// Whether a file in figures/ comes from a report: name or name_2 with one of our endings.
 bool is_ours(const fs::path& file) {
@@ -101,6 +102,7 @@ std::vector<Figure> make_figures(Runs runs) {
     std::move(more.begin(), more.end(), std::back_inserter(figures));
   };
   add(lateral_figures(runs));
+  add(gas_figures(runs));
   figures.push_back(inventory_figure(runs));
   figures.push_back(occurrence_figure(runs));
   figures.push_back(clusters_lateral_figure(runs));

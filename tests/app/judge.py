@@ -23,6 +23,7 @@ import tomllib
 try:
     import numpy as np
     import scipy.ndimage
+    import judge_gas
     import scipy.signal
     import scipy.stats
 except ImportError as missing:
@@ -208,6 +209,9 @@ def settings_of(study_path):
         s["depth"] = 3 - s["up"] - s["lateral"]
         s["periodic"] = ["xyz".index(axis) for axis in s["periodic"]]
         s["particles"] = os.path.join(folder, run["particles"])
+        if "gas" in run:
+            s["gas"] = os.path.join(folder, run["gas"])
+            s["gas_names"] = study.get("gas", {})
         s["profiles"] = study.get("profiles", {})
         s["clusters"] = {"threshold": 0.2, "core": 0.4, "min_area": 60e-6} | study.get("clusters", {})
         s["temperature"] = study.get("temperature", {})
@@ -400,6 +404,10 @@ def recompute(s):
                "inventory_kg": inventory, "mean_occurrence": occurrence,
                "outside_fraction": outside / whole if whole else NAN,
                "from": times[window[0]], "to": times[window[-1]]}
+    if "gas" in s:
+        gas, of_gas = judge_gas.recompute(sys.modules[__name__], s, snapshots, grid, times, window, tables)
+        tables |= gas
+        summary |= of_gas
     return tables, summary
 
 
@@ -534,7 +542,7 @@ KEYS = {
     "bubble_profile": ["run", "height [m]"],
     "spectrum": ["run", "signal", "frequency [Hz]"],
     "fluctuation": ["run", "signal"],
-}
+} | judge_gas.KEYS
 HEADERS = {
     "axial_profile": "run,type,z [m],holdup [-],holdup_ci95 [-],velocity_z [m/s],velocity_z_ci95 [m/s],mass_flux_z [kg/m2/s],mass_flux_z_ci95 [kg/m2/s]",
     "lateral_profile": "run,type,height [m],x [m],holdup [-],holdup_ci95 [-],velocity_z [m/s],velocity_z_ci95 [m/s],mass_flux_z [kg/m2/s],mass_flux_z_ci95 [kg/m2/s]",
@@ -548,7 +556,7 @@ HEADERS = {
     "bubble_profile": "run,height [m],band [m],bubbles [-],bubbles_ci95 [-],diameter [m],diameter_ci95 [m],velocity_z [m/s],velocity_z_ci95 [m/s],frequency [1/s],frequency_ci95 [1/s],area_fraction [-],area_fraction_ci95 [-]",
     "spectrum": "run,signal,unit,frequency [Hz],psd [unit2/Hz],psd_lo [unit2/Hz],psd_hi [unit2/Hz]",
     "fluctuation": "run,signal,unit,samples,mean [unit],mean_ci95 [unit],std [unit],std_ci95 [unit],dominant_frequency [Hz],dominant_frequency_half_width [Hz],resolution [Hz],segments,degrees_of_freedom",
-}
+} | judge_gas.HEADERS
 TEXT_KEYS = {"run", "type", "signal"}
 
 
@@ -611,7 +619,7 @@ class Judge:
                     continue
                 # sums of positive and negative velocities, and slivers of spheres, are as exact as
                 # the largest terms in them
-                signed = column.startswith(("velocity", "mass_flux", "angle", "mean_height"))
+                signed = column.startswith(("velocity", "mass_flux", "angle", "mean_height", "slip"))
                 scale = largest.get(column, 0) * (1e-3 if signed else 1e-6)
                 self.number(f"{name}: {column}", key, value, found[key][column], max(scale, 1e-300))
             for column in row_intervals(found[key]):
@@ -628,7 +636,7 @@ class Judge:
 
     def summary(self, where, expected, found):
         for key, value in expected.items():
-            if isinstance(value, str) or key == "snapshots":
+            if isinstance(value, str) or key in ("snapshots", "gas_times", "gas_matched"):
                 if found.get(key) != value:
                     self.fault("summary", f"{where} {key}: expected {value}, found {found.get(key)}")
             else:
