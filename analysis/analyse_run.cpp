@@ -10,6 +10,8 @@
 #include <optional>
 #include <thread>
 
+#include "analysis/fluctuations.hpp"
+#include "analysis/gas_run.hpp"
 #include "analysis/kept_run.hpp"
 #include "readers/error.hpp"
 
@@ -21,40 +23,50 @@ constexpr std::size_t most_frames = 8;
 struct Item {
   SnapshotProduct product;
   ProductScratch scratch;
+  std::optional<VoidageCheck> check;  // against the gas of the same time
+  GasScratch gas_scratch;
 };
 
-void make_item(const RunSetup& setup, const readers::Series& series, std::size_t i, Item& item) {
-  try {
-    make_product(setup, series, i, item.product, item.scratch);
-  } catch (...) {  // thrown again in the order of the series, whoever met it first
-    item.product.error = std::current_exception();
-  }
-}
+struct GasItem {
+  GasProduct product;
+  GasScratch scratch;
+};
 
-/// Computes the products of snapshots [first, last) in parallel and hands them over in order.
-template <class Take>
-void for_each_product(const RunSetup& setup, const readers::Series& series, std::size_t first,
-                      std::size_t last, int threads, Take&& take) {
-  const auto deliver = [&](Item& item) {
-    if (item.product.error) std::rethrow_exception(item.product.error);
-    take(item.product);
+/// Calls make(i, item) for each i in [first, last), in parallel on items of their own, and
+/// take(item) in order.
+template <class Made, class Make, class Take>
+void for_each_in_order(std::size_t first, std::size_t last, int threads, Make&& make, Take&& take) {
+  struct Job {
+    Made item;
+    std::exception_ptr error;
+  };
+  const auto make_job = [&](std::size_t i, Job& job) {
+    try {
+      make(i, job.item);
+    } catch (...) {  // thrown again in the order of the series, whoever met it first
+      job.error = std::current_exception();
+    }
+  };
+  const auto deliver = [&](Job& job) {
+    if (job.error) std::rethrow_exception(job.error);
+    take(job.item);
   };
   if (threads == 1 || last - first < 2) {
-    Item item;
+    Job job;
     for (std::size_t i = first; i < last; ++i) {
-      make_item(setup, series, i, item);
-      deliver(item);
+      make_job(i, job);
+      deliver(job);
     }
     return;
   }
   // Each thread takes the next snapshot and makes its product; whoever finishes the one whose turn
   // it is hands over all that are ready. One product more than threads, so that nobody waits for a
   // slow neighbour.
-  std::vector<Item> items(static_cast<std::size_t>(threads) + 1);
-  std::vector<Item*> idle;
+  std::vector<Job> items(static_cast<std::size_t>(threads) + 1);
+  std::vector<Job*> idle;
   idle.reserve(items.size());
   for (auto& item : items) idle.push_back(&item);
-  std::map<std::size_t, Item*> ready;
+  std::map<std::size_t, Job*> ready;
   std::mutex mutex;
   std::condition_variable delivered;
   std::size_t next = first, turn = first;
@@ -65,10 +77,10 @@ void for_each_product(const RunSetup& setup, const readers::Series& series, std:
       delivered.wait(lock, [&] { return !idle.empty() || next == last || failure; });
       if (next == last || failure) return;
       const std::size_t i = next++;
-      Item* const item = idle.back();
+      Job* const item = idle.back();
       idle.pop_back();
       lock.unlock();
-      make_item(setup, series, i, *item);
+      make_job(i, *item);
       lock.lock();
       ready[i] = item;
       try {
@@ -89,6 +101,20 @@ void for_each_product(const RunSetup& setup, const readers::Series& series, std:
     for (int k = 0; k < threads; ++k) team.emplace_back(work);
   }
   if (failure) std::rethrow_exception(failure);
+}
+
+/// Computes the products of snapshots [first, last) and their checks against the gas.
+template <class Take>
+void for_each_product(const RunSetup& setup, const readers::Series& series, const GasRun* gas,
+                      std::size_t first, std::size_t last, int threads, Take&& take) {
+  const auto matched = gas == nullptr ? std::vector<std::size_t>{} : gas->unchecked();
+  const auto make = [&](std::size_t i, Item& item) {
+    make_product(setup, series, i, item.product, item.scratch);
+    item.check.reset();
+    if (!std::binary_search(matched.begin(), matched.end(), i)) return;
+    gas->make_check(item.product, item.check.emplace(), item.gas_scratch);
+  };
+  for_each_in_order<Item>(first, last, threads, make, take);
 }
 
 bool same_steps(const readers::Series& a, const readers::Series& b) {
@@ -143,6 +169,8 @@ struct LiveAnalysis::State {
   std::optional<readers::Series> series;
   std::unique_ptr<RunSetup> setup;  // RunSums keep a pointer to it
   std::optional<KeptRun> kept;
+  std::optional<GasRun> gas;
+  std::vector<std::string> gas_times;  // their names, as last seen
   RunResult result;
   bool up_to_date = false;  // result is that of series
   double seconds = 0;
@@ -159,13 +187,35 @@ struct LiveAnalysis::State {
     if (options.note) options.note(text);
   }
 
+  /// The gas as it is on disk now, if the run has any.
+  std::optional<readers::GasSeries> open_gas() const {
+    if (settings.gas.path.empty()) return std::nullopt;
+    return readers::GasSeries::open(settings.gas.path, settings.gas.options);
+  }
+
+  static std::vector<std::string> names_of(const std::optional<readers::GasSeries>& series) {
+    std::vector<std::string> names;
+    if (series)
+      for (const auto& time : series->times()) names.push_back(time.name);
+    return names;
+  }
+
   bool update() {
     const auto started = std::chrono::steady_clock::now();
-    auto found = readers::Series::open(settings.particles, {settings.repeated, &index});
-    if (up_to_date && same_steps(found, *series)) return false;
+    auto found = readers::Series::open(settings.particles, {.repeated = settings.repeated,
+                                                            .index = &index,
+                                                            .columns = settings.columns,
+                                                            .names_needed = true});
+    auto gas_found = open_gas();
+    if (up_to_date && same_steps(found, *series) && names_of(gas_found) == gas_times) return false;
     up_to_date = false;
     series.emplace(std::move(found));
     begin();
+    gas_times = names_of(gas_found);
+    if (gas_found) {
+      if (!gas || kept->changed) gas.emplace(*setup);
+      gas->set_series(std::move(*gas_found));
+    }
     bool news = false;
     Window window;
     if (is_auto() && !evenly_spaced(setup->times)) {
@@ -188,6 +238,8 @@ struct LiveAnalysis::State {
     }
     result.label = settings.label;
     result.inputs = series->files();
+    add_fluctuations(*setup, result);
+    if (gas) add_gas();
     if (options.pictures) {
       result.frames = choose_frames(*setup, *series, result.window, *kept);
       kept->frames = result.frames;
@@ -268,8 +320,34 @@ struct LiveAnalysis::State {
     const auto first = pass.snapshots() + (complete ? 1 : 0);
     pass.read_from = std::min(pass.read_from, first);
     news = news || first < all;
-    for_each_product(*setup, *series, first, all, threads(), take);
+    for_each_product(*setup, *series, gas_run(), first, all, threads(), [&](Item& item) {
+      if (item.check) gas->add_check(*item.check);
+      take(item.product);
+    });
     return std::move(*complete);
+  }
+
+  const GasRun* gas_run() const { return gas ? &*gas : nullptr; }
+
+  /// The gas over the window of the particles, and what its times came too late for.
+  void add_gas() {
+    const auto late = gas->unchecked();
+    for_each_in_order<Item>(
+        0, late.size(), threads(),
+        [&](std::size_t k, Item& item) {
+          make_product(*setup, *series, late[k], item.product, item.scratch);
+          gas->make_check(item.product, item.check.emplace(), item.gas_scratch);
+        },
+        [&](Item& item) { gas->add_check(*item.check); });
+    gas->begin_window(result.window);
+    const auto times = gas->todo();
+    for_each_in_order<GasItem>(
+        0, times.size(), threads(),
+        [&](std::size_t k, GasItem& item) {
+          gas->make_product(times[k], item.product, item.scratch);
+        },
+        [&](GasItem& item) { gas->add_product(item.product); });
+    gas->finish(*series, result);
   }
 
   int threads() const {

@@ -19,15 +19,23 @@ namespace bedscope::analysis {
 
 /// The dumps of a series as they were when they were read.
 struct SeriesMark {
-  struct Snapshot {
+  struct Piece {
     std::size_t file = 0;  ///< in `files`
-    std::int64_t step = 0;
-    double time = 0;  ///< as RunSetup has it
     std::uint64_t offset = 0, bytes = 0;
 
     template <class Archive>
     void archive(Archive& ar) {
-      ar(file, step, time, offset, bytes);
+      ar(file, offset, bytes);
+    }
+  };
+  struct Snapshot {
+    std::int64_t step = 0;
+    double time = 0;  ///< as RunSetup has it
+    std::vector<Piece> pieces;
+
+    template <class Archive>
+    void archive(Archive& ar) {
+      ar(step, time, pieces);
     }
   };
   std::vector<readers::FileMark> files;
@@ -91,9 +99,10 @@ struct KeptRun {
   Pass whole;   ///< over the series, weighted by the window or, for `auto`, by all
   Pass window;  ///< over the window that `auto` chose, where snapshots are unevenly spaced
   std::vector<Frame> frames;
+  bool changed = false;
 
   /// Forgets what does not fit the setup and the dumps of today, and says why it must begin anew;
-  /// empty where it need not.
+  /// empty where it need not. `changed` tells whether any snapshot is not what it was.
   std::string adapt(std::string fingerprint_now, SeriesMark dumps_now);
 
   /// Throws FileError, or FormatError where the file is damaged or of another version; what is here

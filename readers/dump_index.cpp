@@ -44,16 +44,16 @@ void archive_columns(Archive& ar, ColumnLists& lists, std::vector<Located>& snap
 
 template <class Archive>
 void archive_scan(Archive& ar, FileScan& scan) {
-  auto& [snapshots, cut, problems, not_particles] = scan;
-  ar(cut, problems);
+  auto& [snapshots, cut, problems, not_particles, unnamed] = scan;
+  ar(cut, problems, unnamed);
   std::size_t count = snapshots.size();
   ar(count);
   ColumnLists lists;
   for (std::size_t i = 0; i < count; ++i) {
     if (Archive::loading) snapshots.emplace_back();
-    auto& [step, time, particles, offset, bytes, line, checkpoint, context, box, columns, parts] =
-        snapshots[i];
-    ar(step, time, particles, offset, bytes, line, box);
+    auto& [step, time, particles, ghosts, without_ghosts, offset, bytes, line, checkpoint, context,
+           box, columns, named, parts] = snapshots[i];
+    ar(step, time, particles, ghosts, without_ghosts, offset, bytes, line, box, named);
     if (!Archive::loading && (lists.empty() || lists.back() != columns)) lists.push_back(columns);
   }
   archive_columns(ar, lists, snapshots);
