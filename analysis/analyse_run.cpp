@@ -10,6 +10,7 @@
 #include <optional>
 #include <thread>
 
+#include "analysis/fluctuations.hpp"
 #include "analysis/run_sums.hpp"
 #include "readers/error.hpp"
 
@@ -188,6 +189,7 @@ struct LiveAnalysis::State {
     }
     result.label = settings.label;
     result.inputs = series->files();
+    add_fluctuations(*setup, result);
     if (options.pictures) keep_frames(*setup, *series, result);
     seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
     result.seconds = seconds;

@@ -77,6 +77,13 @@ struct RunSettings {
   std::vector<double> heights;  ///< [m]; empty: quarters of the domain
   double band = 0;              ///< [m]; 0: two cells
   ClusterThresholds clusters;
+  std::optional<ClusterThresholds> bubbles;  ///< of the voidage; min_area 0: four cells
+  bool bed = false;                          ///< asked for: [bed] or [bubbles]
+  std::optional<double> height_at_rest;      ///< [m] above the floor; else the first snapshot's
+  bool spectra = false;
+  std::optional<double> segment;      ///< of a spectrum [s]
+  std::string probes;                 ///< pressure probes of OpenFOAM: a folder or a file
+  std::optional<double> gas_density;  ///< [kg/m3], where pressures are p/rho
   std::string temperature_column = "temperature";
   std::optional<std::array<double, 2>> temperature;  ///< made 0 and 1 in the PDF [K]
   int temperature_bins = 25;

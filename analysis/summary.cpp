@@ -62,6 +62,14 @@ bool add_file(Fnv1a& hash, const std::filesystem::path& path) {
          add_part(hash, file.get(), size - end_bytes, end_bytes);
 }
 
+Json bubble_summary(const RunResult& run) {
+  if (!run.bubbles) return nullptr;
+  const Bubbles& bubbles = *run.bubbles;
+  return {{"mean_number", bubbles.number.value},     {"mean_number_ci95", bubbles.number.ci95},
+          {"mean_diameter", bubbles.diameter.value}, {"mean_diameter_ci95", bubbles.diameter.ci95},
+          {"mean_velocity", bubbles.velocity.value}, {"mean_velocity_ci95", bubbles.velocity.ci95}};
+}
+
 // nlohmann::json writes NaN and infinities as null, which is what we promise.
 Json run_summary(const RunResult& run) {
   const Json unknown = nullptr;
@@ -77,6 +85,13 @@ Json run_summary(const RunResult& run) {
           {"mean_occurrence_ci95", run.mean_occurrence.ci95},
           {"mean_bed_voidage", run.bed_voidage.value},
           {"mean_bed_voidage_ci95", run.bed_voidage.ci95},
+          {"mean_bed_height", run.bed.by_centre.value},
+          {"mean_bed_height_ci95", run.bed.by_centre.ci95},
+          {"mean_bed_surface", run.bed.surface.value},
+          {"mean_bed_surface_ci95", run.bed.surface.ci95},
+          {"mean_bed_expansion", run.bed.expansion.value},
+          {"mean_bed_expansion_ci95", run.bed.expansion.ci95},
+          {"bubbles", bubble_summary(run)},
           {"independent_samples", run.independent_samples},
           {"outside_fraction", run.outside_fraction},
           {"bytes_read", run.bytes_read},

@@ -328,7 +328,7 @@ void read_scene(Table& table, RunSettings& settings) {
   }
   by_type(table, "density", settings.density);
   by_type(table, "radius", settings.radius);
-  table.positive("gas_density");
+  if (const auto density = table.positive("gas_density")) settings.gas_density = density;
   if (auto species = table.table("species")) {
     settings.species.clear();
     for (const auto& [name, node] : species->raw()) {
@@ -353,18 +353,36 @@ void read_scene(Table& table, RunSettings& settings) {
   }
 }
 
+void read_thresholds(Table& table, analysis::ClusterThresholds& thresholds) {
+  thresholds.threshold = table.positive("threshold").value_or(thresholds.threshold);
+  thresholds.core = table.positive("core").value_or(thresholds.core);
+  thresholds.min_area = table.positive("min_area").value_or(thresholds.min_area);
+  table.finish();
+}
+
 void read_products(Table& study, RunSettings& settings) {
   if (auto profiles = study.table("profiles")) {
     settings.heights = profiles->numbers("heights").value_or(std::vector<double>{});
     settings.band = profiles->positive("band").value_or(0);
     profiles->finish();
   }
-  if (auto clusters = study.table("clusters")) {
-    auto& thresholds = settings.clusters;
-    thresholds.threshold = clusters->positive("threshold").value_or(thresholds.threshold);
-    thresholds.core = clusters->positive("core").value_or(thresholds.core);
-    thresholds.min_area = clusters->positive("min_area").value_or(thresholds.min_area);
-    clusters->finish();
+  if (auto clusters = study.table("clusters")) read_thresholds(*clusters, settings.clusters);
+  if (auto bubbles = study.table("bubbles")) {
+    settings.bubbles = {.threshold = 0.8, .core = 0.9, .min_area = 0};
+    read_thresholds(*bubbles, *settings.bubbles);
+    const double highest = std::max(settings.bubbles->threshold, settings.bubbles->core);
+    if (!(highest < 1))
+      bubbles->fail(bubbles->raw(), "bubbles: expected voidages below 1, found {}", highest);
+  }
+  if (auto bed = study.table("bed")) {
+    settings.height_at_rest = bed->positive("height_at_rest");
+    bed->finish();
+  }
+  settings.bed = study.find("bed") != nullptr || settings.bubbles;
+  if (auto spectra = study.table("spectra")) {
+    settings.spectra = true;
+    settings.segment = spectra->positive("segment");
+    spectra->finish();
   }
   if (auto temperature = study.table("temperature")) {
     settings.temperature_column = temperature->text("column").value_or(settings.temperature_column);
@@ -403,6 +421,7 @@ StudyRun read_run(Table& table, RunSettings settings, const std::filesystem::pat
                settings.label);
   if (particles) settings.particles = in_folder(*particles);
   if (tables) run.tables = in_folder(*tables);
+  if (const auto probes = table.text("probes")) settings.probes = in_folder(*probes);
   settings.time_step = table.positive("time_step");
   settings.step_zero = table.integer("step_zero").value_or(0);
   if (const auto repeated = table.text("repeated")) {

@@ -96,7 +96,10 @@ void Canvas::label(const std::string& expression, double x, double y, std::strin
 }
 
 void Canvas::axis(char name, const Axis& range, bool numbers, bool map) {
-  const std::string format = numbers ? fmt::format("%.{}f", range.decimals) : "";
+  if (range.logarithmic) body_ += fmt::format("  set logscale {0}; set m{0}tics 10\n", name);
+  const std::string format = !numbers            ? ""
+                             : range.logarithmic ? "10^{%T}"
+                                                 : fmt::format("%.{}f", range.decimals);
   body_ += fmt::format("  set {0}range [{1:.10g}:{2:.10g}]; set format {0} '{3}'\n", name, range.lo,
                        range.hi, format);
   body_ += fmt::format("  set {0}tics {1:.10g},{2:.10g},{3:.10g} {4} scale 0.5,0.25 offset {5}\n",

@@ -151,6 +151,11 @@ std::string link_list(const fs::path& folder) {
                                     "tables/inventory.csv",
                                     "tables/clusters.csv",
                                     "tables/cluster_occurrence.csv",
+                                    "tables/bed_height.csv",
+                                    "tables/bubbles.csv",
+                                    "tables/bubble_profile.csv",
+                                    "tables/fluctuation.csv",
+                                    "tables/spectrum.csv",
                                     "tables/temperature.csv",
                                     "tables/temperature_pdf.csv"};
   std::string links = "<p class=\"note\">Data: ";

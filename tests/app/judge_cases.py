@@ -9,6 +9,7 @@ import random
 import sys
 import tempfile
 
+import bubbling_bed
 import judge  # exits with 77 where numpy or scipy is missing
 import numpy as np
 
@@ -282,7 +283,20 @@ def defaults(folder):
     return write_study(folder, keys, [RUN])
 
 
+def bubbling(folder, mapping="exact", **sections):
+    """A packed bed with rising voids, some at a wall, and a little splash above."""
+    columns = [(0.0, 0.02, 0.25, 4.0, 0.2), (0.03, 0.016, 0.3, 5.0, 0.0), (0.055, 0.011, 0.2, 6.0, 0.6)]
+    bubbling_bed.write_run(folder + "/post", columns, snapshots=64, interval=0.02, width=0.07,
+                           height=0.12, diameter=0.002, splash=40)
+    return write_study(folder, scene(cell=[0.0035, 0.004], mapping=mapping, average={"from": 0.1}),
+                       [RUN], **({"bubbles": {}, "spectra": {"segment": 0.4}} | sections))
+
+
 CASES = {
+    "bubbling": bubbling,
+    "bubbling at heights": lambda f: bubbling(
+        f, "centre", bubbles={"threshold": 0.7, "core": 0.75, "min_area": 30e-6},
+        profiles={"heights": [0.02, 0.06, 0.11], "band": 0.03}, bed={"height_at_rest": 0.11}),
     "on faces": on_faces,
     "on faces exact": lambda f: on_faces(f, "exact"),
     "density column": density_column,
