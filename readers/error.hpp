@@ -7,14 +7,32 @@
 
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace bedscope {
 
+/// A text for the user as one line, whatever was quoted in it from a damaged file or an odd name:
+/// control characters as \n or \x1b, the middle of very long ones left out.
+inline std::string one_line(std::string_view text) {
+  constexpr std::size_t longest = 1800;
+  if (text.size() > longest)
+    return one_line(text.substr(0, longest / 2)) + " ... " +
+           one_line(text.substr(text.size() - longest / 2));
+  std::string line;
+  for (const char c : text) {
+    if (static_cast<unsigned char>(c) >= ' ' && c != '\x7f')
+      line += c;
+    else
+      line += c == '\n' ? "\\n" : fmt::format("\\x{:02x}", c);
+  }
+  return line;
+}
+
 /// Base of all errors that end in exit code 2 and one line on stderr.
 class Error : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit Error(const std::string& text) : std::runtime_error(one_line(text)) {}
 };
 
 /// The disk: missing file, no permission, no space.

@@ -69,6 +69,8 @@ Series Series::open(const std::string& where, const SeriesOptions& options) {
   const auto& first = series.entries_.front().where;
   if (first.columns != nullptr) series.columns_ = *first.columns;
   if (first.parts != nullptr) series.parts_ = *first.parts;
+  for (auto* lines : {&series.problems_, &series.left_out_})
+    for (auto& line : *lines) line = one_line(line);
   return series;
 }
 
