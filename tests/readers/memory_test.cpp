@@ -121,9 +121,9 @@ std::vector<Claim> dumps() {
 }
 
 /// A file that belongs to the same series.
-std::string good_beside(const Claim& claim) {
+std::string good_beside(const Claim& claim, std::int64_t step) {
   const std::string name = claim.name;
-  if (name.starts_with("text")) return small_dump(100, 2);
+  if (name.starts_with("text")) return small_dump(step, 2);
   if (name.starts_with("vtk")) return small_vtk(2);
   return xml("1", "<DataArray type=\"Float64\" NumberOfComponents=\"3\">0 0 0</DataArray>");
 }
@@ -142,9 +142,10 @@ TEST_P(DumpMemory, HugeClaimsCostNothing) {
   RecordProperty("bytes", std::to_string(used));
   EXPECT_LT(used, buffers) << error;
   // In the middle of a series only the header is looked at before the rows are read.
-  for (const char* name : {"dump_50", "dump_200"}) folder.write(name, good_beside(GetParam()));
+  for (const int step : {50, 200})
+    folder.write(fmt::format("dump_{}", step), good_beside(GetParam(), step));
   EXPECT_LT(memory_of([&] { error = error_of([&] { inform(folder.path()); }); }), buffers);
-  EXPECT_EQ(error.find("two forms"), error.npos) << error;
+  EXPECT_TRUE(error.empty() || error.find("dump_100") != error.npos) << error;
 }
 
 INSTANTIATE_TEST_SUITE_P(Readers, DumpMemory, testing::ValuesIn(dumps()),
