@@ -80,7 +80,10 @@ class Table {
     if (node == nullptr) return std::nullopt;
     if (!node->is_string())
       fail(*node, "{}: expected a text, found {}", key(name), found_text(*node));
-    return node->value<std::string>();
+    const auto text = node->value_or(std::string{});
+    if (text.find('\0') != text.npos)  // a path would end there
+      fail(*node, "{}: expected a text without NUL characters", key(name));
+    return text;
   }
 
   std::optional<double> number(std::string_view name) {

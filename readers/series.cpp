@@ -210,6 +210,10 @@ void Series::compare_snapshots() {
 void Series::read(std::size_t i, const Request& request, Snapshot& out, Scratch& scratch) const {
   const auto& entry = entries_[i];
   form_->read(files_[entry.file], entry.where, request, out, scratch);
+  if (static_cast<std::int64_t>(out.particles) != entry.where.particles)
+    throw FormatError(
+        "{}: expected {} particles, found {}: the file has changed since it was opened",
+        files_[entry.file], entry.where.particles, out.particles);
   out.step = entry.step;
 }
 
