@@ -15,12 +15,15 @@ namespace bedscope {
 /// A text for the user as one line, whatever was quoted in it from a damaged file or an odd name:
 /// control characters as \n or \x1b, the middle of very long ones left out.
 inline std::string one_line(std::string_view text) {
-  constexpr std::size_t longest = 1800;
-  if (text.size() > longest)
-    return one_line(text.substr(0, longest / 2)) + " ... " +
-           one_line(text.substr(text.size() - longest / 2));
+  constexpr std::size_t half = 900;
+  const bool whole = text.size() <= 2 * half;
   std::string line;
-  for (const char c : text) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (!whole && i == half) {
+      line += " ... ";
+      i = text.size() - half;
+    }
+    const char c = text[i];
     if (static_cast<unsigned char>(c) >= ' ' && c != '\x7f')
       line += c;
     else

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 // What a reader may hold at once, as docs/reliability.md promises it: a double and its copies for
 // every two characters ("1 "), and the buffers that do not depend on the input.
 constexpr std::size_t memory_factor = 64, memory_base = 16U << 20;
-constexpr std::size_t longest_line = 8000;
+constexpr std::size_t longest_line = 4 * 1800 + 10;  // see one_line(): \x1b for a character
 constexpr std::size_t most_parts = 40;
 
 std::size_t held = 0, most_held = 0, input_bytes = 0;  // of the input at hand

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs every fuzz target by hand for a long time, one after the other, and keeps a table of it.
 
-    long.py CPU_SECONDS [FOLDER]      after scripts/bootstrap --dev and tests/fuzz/build.sh .
+    long.py CPU_SECONDS [FOLDER]      after tests/fuzz/build.sh .
 
 CPU_SECONDS (of all targets together) are shared out evenly and counted as used, not by the clock, so
 it may run at low priority beside other work: `setsid nohup nice -n 19 tests/fuzz/long.py 7200 &`.
@@ -101,6 +101,7 @@ def main():
     for target in targets:
         shutil.copy(built / f"fuzz_{target.program}", folder / "bin")
     table = folder / "table.md"
+    write_table(targets, table, False)
     for target in targets:
         target.run(total / len(targets), lambda: write_table(targets, table, False))
     write_table(targets, table, True)

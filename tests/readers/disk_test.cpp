@@ -101,6 +101,24 @@ TEST_P(ChangingFile, GoneOrNoFileAnyMoreItIsAnError) {
 INSTANTIATE_TEST_SUITE_P(Readers, ChangingFile, testing::ValuesIn(dumps()),
                          [](const auto& dump) { return std::string(dump.param.name); });
 
+TEST(Errors, AreOnePrintableLineWhateverTheyQuote) {
+  EXPECT_STREQ(FormatError("{}: a\nb\x1b[31m", "dump").what(), "dump: a\\nb\\x1b[31m");
+  EXPECT_STREQ(FileError("größe").what(), "größe");
+  const std::string text = FileError("a{}z", std::string(300'000, 'x')).what();
+  EXPECT_EQ(text.size(), 1805U);
+  EXPECT_TRUE(text.starts_with("axx") && text.ends_with("xxz"));
+  EXPECT_NE(text.find(" ... "), text.npos);
+}
+
+TEST(Errors, OfASeriesAreOneLineEachInProblemsToo) {
+  TemporaryFolder folder;
+  folder.write("dump100", replaced(small_dump(100, 1), "radius", "ra\x7f"));
+  folder.write("dump200", small_dump(200, 1));
+  const auto series = Series::open(folder.path());
+  ASSERT_EQ(series.problems().size(), 1U);
+  EXPECT_NE(series.problems()[0].find("ra\\x7f"), std::string::npos) << series.problems()[0];
+}
+
 TEST(Names, OfAnyKindAreRead) {
   for (const std::string name :
        {"dump 100", "dump%s%d100", "dump\n100", "größe_日本100", "\xff\xfe 100", "-100", "*100",
