@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <new>
 
 #include "app/commands.hpp"
@@ -41,6 +42,9 @@ int main(int argc, char** argv) {
     return app::done;
   } catch (const Error& error) {
     fmt::print(stderr, "bedscope: {}\n", error.what());
+    return app::bad_input;
+  } catch (const std::filesystem::filesystem_error& error) {  // the disk's, where nobody asked
+    fmt::print(stderr, "bedscope: {}\n", one_line(error.what()));
     return app::bad_input;
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "bedscope: out of memory\n");

@@ -371,6 +371,17 @@ class BadInput(Command):
         write(self.at("a.toml"), "[scene\nup = 1\n")
         self.fails(self.at("a.toml"), "a.toml", "line 1")
 
+    def test_text_with_a_nul_character(self):
+        self.post()  # the system would open what stands before it
+        write(self.at("a.toml"), '[[run]]\nparticles = "post\\u0000x"\ntime_step = 1e-5\n')
+        self.fails(self.at("a.toml"), "a.toml", "line 2", "NUL")
+
+    def test_empty_paths(self):
+        self.fails("", "empty path")
+        for key in ("particles", "tables"):
+            write(self.at("a.toml"), f"[[run]]\n{key} = ''\ntime_step = 1e-5\n")
+            self.fails(self.at("a.toml"), "a.toml", "line 2", f"run.{key}")
+
     def test_study_that_is_not_there(self):
         self.fails(self.at("nothing.toml"), "nothing.toml")
 
