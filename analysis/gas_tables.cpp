@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "analysis/csv.hpp"
-#include "readers/error.hpp"
+#include "analysis/output_file.hpp"
 
 namespace bedscope::analysis {
 namespace {
@@ -62,10 +62,10 @@ void write_pressure(std::span<const RunResult> runs, const std::filesystem::path
 
 void write_gas_tables(std::span<const RunResult> runs, const std::filesystem::path& folder) {
   const auto write_or_remove = [&](const char* name, bool wanted, auto&& write) {
-    if (wanted) return write(runs, folder / name);
-    std::error_code error;
-    std::filesystem::remove(folder / name, error);
-    if (error) throw FileError("{}: {}", (folder / name).string(), error.message());
+    if (wanted)
+      write(runs, folder / name);
+    else
+      remove_file(folder / name);
   };
   const auto any = [&](auto&& of) { return std::any_of(runs.begin(), runs.end(), of); };
   const bool gas = any([](const RunResult& run) { return run.gas.present; });

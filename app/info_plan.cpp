@@ -158,7 +158,7 @@ std::string products_text(const RunSetup& setup, const readers::Survey& survey) 
         "... "
         "  # K, made 1\n",
         quoted(survey.temperature_column));
-  return text;
+  return text + "\n# Of a bubbling bed: [bubbles], [bed] and [spectra], see docs/study.md\n";
 }
 
 std::string run_text(const std::string& path, const RunSetup& setup,

@@ -60,8 +60,8 @@ int main(int argc, char** argv) {
   } catch (const Error& error) {
     fmt::print(stderr, "bedscope: {}\n", error.what());
     return app::bad_input;
-  } catch (const std::filesystem::filesystem_error& error) {
-    fmt::print(stderr, "bedscope: {}: {}\n", error.path1().string(), error.code().message());
+  } catch (const std::filesystem::filesystem_error& error) {  // the disk's, where nobody asked
+    fmt::print(stderr, "bedscope: {}\n", one_line(error.what()));
     return app::bad_input;
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "bedscope: out of memory\n");

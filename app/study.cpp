@@ -81,7 +81,10 @@ class Table {
     if (node == nullptr) return std::nullopt;
     if (!node->is_string())
       fail(*node, "{}: expected a text, found {}", key(name), found_text(*node));
-    return node->value<std::string>();
+    const auto text = node->value_or(std::string{});
+    if (text.find('\0') != text.npos)  // a path would end there
+      fail(*node, "{}: expected a text without NUL characters", key(name));
+    return text;
   }
 
   std::optional<double> number(std::string_view name) {
@@ -450,6 +453,10 @@ StudyRun read_run(Table& table, RunSettings settings, const std::filesystem::pat
     table.fail(table.raw(),
                "run \"{}\": particles is missing: expected a file, a folder or a pattern",
                settings.label);
+  for (const auto& [key, value] :
+       {std::pair("particles", &particles), std::pair("tables", &tables)})
+    if (*value && (*value)->empty())
+      table.fail(*table.find(key), "{}: expected a path, found \"\"", table.key(key));
   if (particles) settings.particles = in_folder(*particles);
   if (tables) run.tables = in_folder(*tables);
   if (const auto probes = table.text("probes")) settings.probes = in_folder(*probes);
@@ -512,10 +519,12 @@ Study read_study(const std::string& path) {
 }
 
 Study study_of_path(const std::string& path) {
+  if (path.empty()) throw InputError("expected a study, a dump or a folder, found an empty path");
   Study study;
   auto name = std::filesystem::path(path).lexically_normal();
   if (!name.has_filename()) name = name.parent_path();
-  study.title = std::filesystem::absolute(name).filename().string();
+  std::error_code none;  // the current folder may be gone
+  study.title = std::filesystem::absolute(name, none).filename().string();
   StudyRun run;
   run.settings.label = study.title;
   run.settings.particles = path;

@@ -13,6 +13,9 @@ add_library(bedscope_flags INTERFACE)
 # -ffp-contract=off: the same bits with and without FMA in the instruction set.
 target_compile_options(bedscope_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
                        -Wno-sign-conversion -ffp-contract=off)
+if(BEDSCOPE_FUZZ)
+  target_compile_definitions(bedscope_flags INTERFACE BEDSCOPE_FUZZING)  # small windows, see source.hpp
+endif()
 if(BEDSCOPE_SANITIZE)
   target_compile_options(bedscope_flags INTERFACE -fsanitize=${BEDSCOPE_SANITIZE}
                          -fno-sanitize-recover=all -fno-omit-frame-pointer)

@@ -18,7 +18,7 @@ class ByteWindow {
   /// Bytes behind end() that may be read (not used): lets the tokeniser load whole blocks.
   static constexpr std::size_t padding = 64;
   /// A piece that stays in the second-level cache between the kernel's copy and the parsing.
-  static constexpr std::size_t piece = 1U << 18;
+  static constexpr std::size_t piece = window_bytes(1U << 18);
 
   ByteWindow(Source& source, std::vector<char>& buffer, std::size_t size = piece)
       : source_(&source), buffer_(&buffer) {

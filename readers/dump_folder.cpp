@@ -221,6 +221,7 @@ NameParts split_name(const std::string& path) {
   for (std::size_t i = 0; i < name.size();) {
     const auto after = std::min(name.find_first_not_of("0123456789", i), name.size());
     if (after == i) {
+      if (name[i] == '*' || name[i] == '\\') parts.stem += '\\';  // a star of the name's own
       parts.stem += name[i++];
       continue;
     }

@@ -7,14 +7,35 @@
 
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace bedscope {
 
+/// A text for the user as one line, whatever was quoted in it from a damaged file or an odd name:
+/// control characters as \n or \x1b, the middle of very long ones left out.
+inline std::string one_line(std::string_view text) {
+  constexpr std::size_t half = 900;
+  const bool whole = text.size() <= 2 * half;
+  std::string line;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (!whole && i == half) {
+      line += " ... ";
+      i = text.size() - half;
+    }
+    const char c = text[i];
+    if (static_cast<unsigned char>(c) >= ' ' && c != '\x7f')
+      line += c;
+    else
+      line += c == '\n' ? "\\n" : fmt::format("\\x{:02x}", c);
+  }
+  return line;
+}
+
 /// Base of all errors that end in exit code 2 and one line on stderr.
 class Error : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit Error(const std::string& text) : std::runtime_error(one_line(text)) {}
 };
 
 /// The disk: missing file, no permission, no space.

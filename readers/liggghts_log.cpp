@@ -176,10 +176,10 @@ LiggghtsLog read_log(const std::string& path) {
 
 LiggghtsLog find_log(const std::string& dump) {
   namespace fs = std::filesystem;
-  const auto folder = fs::absolute(dump).parent_path();
+  std::error_code error;
+  const auto folder = fs::absolute(dump, error).parent_path();
   for (const auto& place : {folder, folder.parent_path()}) {
     const auto path = place / "log.liggghts";
-    std::error_code error;
     if (fs::is_regular_file(path, error)) return read_log(path.string());
   }
   return {};

@@ -17,7 +17,12 @@ constexpr std::size_t longest_value = 1 << 20;  // also bounds what macros can g
 
 using Kind = FoamToken::Kind;
 
-std::string absolute(const std::string& path) { return fs::weakly_canonical(path).string(); }
+// The same for all names of a file; as it stands where the system gives none (/dev/fd/3).
+std::string absolute(const std::string& path) {
+  std::error_code error;
+  const auto found = fs::weakly_canonical(path, error);
+  return error ? path : found.string();
+}
 
 bool in_macro_name(char c) {
   return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' ||
@@ -121,8 +126,9 @@ void FoamEntries::follow(const FoamToken& directive, FoamDictionary& dictionary)
     return;
   }
   const fs::path target = fs::path(stream_->path()).parent_path() / path.text;
+  std::error_code ignored;  // a name that is too long is the name of no file
   if (fs::path(path.text).is_absolute() || path.text.find('$') != std::string::npos ||
-      path.text.find('<') != std::string::npos || !fs::is_regular_file(target)) {
+      path.text.find('<') != std::string::npos || !fs::is_regular_file(target, ignored)) {
     if (!optional) dictionary.not_followed.push_back(fmt::format("#include \"{}\"", path.text));
     return;
   }

@@ -16,7 +16,8 @@
 
 namespace bedscope::readers::detail {
 
-inline constexpr std::size_t piece_bytes = 1U << 18;  // read, converted and checked in the cache
+inline constexpr std::size_t piece_bytes =
+    window_bytes(1U << 18);  // read, converted and checked in the cache
 
 /// The opening of a list: how many values, and what follows.
 struct Opening {

@@ -12,6 +12,7 @@ namespace {
 
 std::unique_ptr<FoamBlocks> open_needed(const OpenMeshFile& open, std::string_view name) {
   auto file = open(name);
+  if (file == nullptr) throw FileError("{}: no such file in the mesh", name);
   if (file->stream().peek() == '\0') {
     if (file->header().present) file->stream().fail_cut("expected a list, found end of file");
     throw FormatError("{}: is empty, expected the {} of a mesh", file->stream().path(), name);

@@ -43,7 +43,8 @@ void add_columns(std::string_view file, std::string_view class_name,
 std::string cloud_folder(const OpenFoamCase::Impl& impl, const std::string& relative) {
   for (const auto& folder : impl.folders) {
     auto path = fmt::format("{}/{}", folder.path, relative);
-    if (fs::is_directory(path)) return path;
+    std::error_code ignored;
+    if (fs::is_directory(path, ignored)) return path;
   }
   return {};
 }

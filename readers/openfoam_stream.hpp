@@ -97,7 +97,8 @@ class FoamStream {
 
  private:
   static constexpr std::uint64_t no_limit = std::numeric_limits<std::uint64_t>::max();
-  static constexpr std::size_t piece = 1U << 16;  // stays in the cache; more costs page faults
+  static constexpr std::size_t piece =
+      window_bytes(1U << 16);  // stays in the cache; more costs page faults
 
   [[noreturn]] void fail_text(std::uint64_t offset, bool cut, const std::string& text) const;
   void read_string(FoamToken& token);

@@ -77,6 +77,8 @@ Series Series::open(const std::string& where, const SeriesOptions& options) {
   const auto& first = series.located(0);
   if (first.columns != nullptr) series.columns_ = *first.columns;
   if (first.parts != nullptr) series.parts_ = *first.parts;
+  for (auto* lines : {&series.problems_, &series.left_out_})
+    for (auto& line : *lines) line = one_line(line);
   return series;
 }
 
@@ -265,6 +267,10 @@ void Series::read(std::size_t i, const Request& request, Snapshot& out, Scratch&
   const auto& [file, where] = entry.parts.front();
   form_->read(files_[file], where, request, out, scratch);
   if (entry.parts.size() > 1) read_more(entry, request, out, scratch);
+  if (static_cast<std::int64_t>(out.particles) != particles(i))
+    throw FormatError(
+        "{}: expected {} particles, found {}: the file has changed since it was opened", path(i),
+        particles(i), out.particles);
   out.step = entry.step;
   out.time = entry.time;
 }

@@ -18,7 +18,7 @@
 namespace bedscope::readers {
 namespace {
 
-constexpr std::size_t gzip_input = 1 << 16;
+constexpr std::size_t gzip_input = window_bytes(1U << 16);
 constexpr int gzip_window = 15 + 16;           // the largest window, gzip framing
 constexpr std::uint64_t deflate_limit = 1032;  // deflate cannot expand a byte to more than this
 
@@ -195,7 +195,8 @@ void Source::seek(std::uint64_t offset) {
     return;
   }
   if (offset < impl_->position) impl_->restart();
-  std::vector<char> skipped(std::min<std::uint64_t>(offset - impl_->position, 1U << 18));
+  std::vector<char> skipped(
+      std::min<std::uint64_t>(offset - impl_->position, window_bytes(1U << 18)));
   while (impl_->position < offset) {
     const auto ask = std::min<std::uint64_t>(offset - impl_->position, skipped.size());
     if (read({skipped.data(), static_cast<std::size_t>(ask)}) < ask) return;
@@ -258,7 +259,7 @@ std::string read_head(const std::string& path, std::size_t count) {
 
 std::uint64_t line_at(const std::string& path, std::uint64_t offset) {
   Source source(path);
-  std::vector<char> piece(1U << 18);
+  std::vector<char> piece(window_bytes(1U << 18));
   std::uint64_t line = 1;
   while (offset > 0) {
     const auto ask = std::min<std::uint64_t>(offset, piece.size());

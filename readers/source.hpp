@@ -12,6 +12,14 @@ namespace bedscope::readers {
 
 class Checkpoint;
 
+/// How much is read in one go: what is usual, or so little that the fuzz targets meet the edges of
+/// every window.
+#ifdef BEDSCOPE_FUZZING
+constexpr std::size_t window_bytes(std::size_t) { return 256; }
+#else
+constexpr std::size_t window_bytes(std::size_t usual) { return usual; }
+#endif
+
 /// A regular file opened for reading. A gzip file (by its magic bytes, whatever its name) is
 /// decompressed on the way, concatenated members included; offsets are of the decompressed bytes.
 /// Throws FileError for anything that is not a readable regular file, naming the reason.

@@ -38,6 +38,24 @@ std::string dump(std::int64_t step, std::size_t particles = 400) {
   return text;
 }
 
+/// A packed bed of 4 mm spheres with a round hole that rises.
+std::string bed_with_bubble(std::int64_t step) {
+  const double centre = 0.02 + 1e-5 * static_cast<double>(step % 6000);
+  std::string rows;
+  std::size_t count = 0;
+  for (int i = 0; i < 25; ++i)
+    for (int j = 0; j < 2; ++j)
+      for (int k = 0; k < 25; ++k) {
+        const double x = 0.002 + 0.004 * i, z = 0.002 + 0.004 * k;
+        if (std::hypot(x - 0.05, z - centre) < 0.016) continue;
+        rows += fmt::format("{} 1 {:.6g} {:.6g} {:.6g} 0 0 0.002 350 1 \n", ++count, x,
+                            0.002 + 0.004 * j, z);
+      }
+  return readers::dump_header(step, count, "id type x y z vx vz radius temperature q",
+                              "ff ff ff\n0 0.1\n0 0.01\n0 0.2\n") +
+         rows;
+}
+
 /// All that is written of a result, but for the work that it took.
 std::string written(RunResult result, const std::string& folder) {
   fs::remove_all(folder);
@@ -275,6 +293,46 @@ TEST_F(Resume, AThreeDimensionalGridAndOtherKernels) {
     expect_the_same(5);
     fs::remove(folder.path("post/dump600.liggghts"));
   }
+}
+
+TEST_F(Resume, BubblesAndBedHeight) {
+  settings.bed = true;
+  settings.bubbles = {0.7, 0.9, 100e-6};
+  for (int step = 0; step < 1000; step += 100) add(step, bed_with_bubble(step));
+  expect_the_same(0);
+  for (int step = 1000; step < 4000; step += 100) add(step, bed_with_bubble(step));
+  expect_the_same(9);
+  const auto result = analyse_run(settings, keeping());
+  EXPECT_GE(result.bubbles->bubbles.size(), 20U);
+  EXPECT_EQ(result.snapshots_kept, 40U);
+  settings.bubbles->threshold = 0.75;
+  expect_the_same(0);
+}
+
+TEST_F(Resume, OneFilePerProcessor) {
+  const auto add_pieces = [&](std::int64_t step) {
+    const auto text = dump(step, 300);
+    const auto body = text.find("q \n") + 3;
+    auto middle = body;
+    for (int row = 0; row < 120; ++row) middle = text.find('\n', middle) + 1;
+    const auto head = [&](const char* count) {
+      return readers::replaced(text.substr(0, body), "ATOMS\n300", fmt::format("ATOMS\n{}", count));
+    };
+    folder.write(fmt::format("post/dump{}.liggghts_0", step),
+                 head("120") + text.substr(body, middle - body));
+    folder.write(fmt::format("post/dump{}.liggghts_1", step), head("180") + text.substr(middle));
+  };
+  for (int step = 0; step < 900; step += 100) add_pieces(step);
+  expect_the_same(0);
+  EXPECT_EQ(analyse_run(settings, keeping()).inventory.front().particles, 300);
+  add_pieces(900);
+  expect_the_same(8);
+  add_pieces(300);  // written again, both of them; then one
+  expect_the_same(0);
+  const auto piece = folder.path("post/dump200.liggghts_1");
+  folder.write("post/dump200.liggghts_1", bytes_of(piece));
+  expect_the_same(0);
+  EXPECT_NE(notes.find("step 200"), std::string::npos) << notes;
 }
 
 TEST_F(Resume, OtherSettingsBeginAnew) {

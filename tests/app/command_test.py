@@ -105,6 +105,38 @@ class Command(unittest.TestCase):
         write(path, b"\n".join(lines[: 9 + rows]) + b"\n" + lines[9 + rows][:7])
 
 
+class OneStepInManyForms(Command):
+    """tests/data/liggghts_parallel: one step of a run of two processes, in every form."""
+
+    DATA = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "data", "liggghts_parallel")
+
+    def study_of(self, columns, forms):
+        text = "[scene]\ndensity = 2500\n"
+        text += "domain = { min = [-0.05, -0.05, 0], max = [0.05, 0.05, 0.15] }\n"
+        for form in forms:
+            text += f'[[run]]\nlabel = "{form}"\nparticles = "{os.path.join(self.DATA, form)}"\n'
+            text += f"time_step = 1e-5\n{columns if form.endswith('.bin') else ''}\n"
+        path = self.at("forms.toml")
+        write(path, text.encode())
+        return path
+
+    def test_inventory_is_the_same(self):
+        forms = ("gather1000.bin", "split*.bin", "dump*", "sorted*", "par_1000.pvtp", "par_1000*",
+                 "paru_1000.pvtu", "case_1000.vtm")
+        self.analyse(self.study_of('columns = ["id", "type", "x", "y", "z", "radius"]', forms))
+        rows = [row for row in self.rows("inventory") if row["type"] == "all"]
+        self.assertEqual(len(rows), len(forms))
+        for row in rows:
+            self.assertEqual(row["particles"], "304")
+            self.assertEqual(float(row["time [s]"]), 0.01)
+            for name in ("solids_mass [kg]", "mean_height [m]"):  # text dumps hold six digits
+                self.assertAlmostEqual(float(row[name]) / float(rows[0][name]), 1, delta=1e-6)
+
+    def test_binary_dumps_need_names(self):
+        self.fails(self.study_of("", ["gather1000.bin"]), "names no columns", "columns = [...]")
+        self.fails(self.study_of('columns = ["id"]', ["gather1000.bin"]), "6 columns", "names 1")
+
+
 class SameResults(Command):
     def test_threads_do_not_change_a_byte(self):
         self.post(range(0, 4000, 100), count=200, clumps=2, types=(1, 2), radii=[5e-4, 9e-4])
@@ -339,6 +371,17 @@ class BadInput(Command):
     def test_toml_that_does_not_parse(self):
         write(self.at("a.toml"), "[scene\nup = 1\n")
         self.fails(self.at("a.toml"), "a.toml", "line 1")
+
+    def test_text_with_a_nul_character(self):
+        self.post()  # the system would open what stands before it
+        write(self.at("a.toml"), '[[run]]\nparticles = "post\\u0000x"\ntime_step = 1e-5\n')
+        self.fails(self.at("a.toml"), "a.toml", "line 2", "NUL")
+
+    def test_empty_paths(self):
+        self.fails("", "empty path")
+        for key in ("particles", "tables"):
+            write(self.at("a.toml"), f"[[run]]\n{key} = ''\ntime_step = 1e-5\n")
+            self.fails(self.at("a.toml"), "a.toml", "line 2", f"run.{key}")
 
     def test_study_that_is_not_there(self):
         self.fails(self.at("nothing.toml"), "nothing.toml")

@@ -2,6 +2,7 @@
 #include "readers/openfoam_dictionary.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/mman.h>
 
 #include "openfoam_samples.hpp"
 
@@ -85,6 +86,18 @@ TEST(OpenFoamDictionary, IncludeIsRelativeToTheFile) {
   const auto path =
       folder.write("0/U", header("dictionary") + "#include \"include/initial\"\nU $speed;\n");
   EXPECT_EQ(read_dictionary(path).value("U", ""), "2");
+}
+
+TEST(OpenFoamDictionary, AFileWithoutANameIsReadAndANameThatIsTooLongIsNoFile) {
+  // As `bedscope info <(zcat p.gz)` and the fuzz targets give it: an open file, no path that leads
+  // to it.
+  const int file = ::memfd_create("U", 0);
+  const auto text = header("dictionary") + "#include \"" + std::string(400, 'x') + "\"\nspeed 3;\n";
+  ASSERT_EQ(::write(file, text.data(), text.size()), static_cast<ssize_t>(text.size()));
+  const auto d = read_dictionary(fmt::format("/proc/self/fd/{}", file));
+  ::close(file);
+  EXPECT_EQ(d.value("speed", "U"), "3");
+  EXPECT_EQ(d.not_followed.size(), 1U);
 }
 
 TEST(OpenFoamDictionary, IncludeInACircleIsAnErrorWithItsLine) {

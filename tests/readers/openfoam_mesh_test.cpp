@@ -160,6 +160,11 @@ TEST_F(BrokenMesh, NamesTheFaceAndTheLabel) {
   EXPECT_NE(error().find("830 faces bound 300 cells at most"), std::string::npos) << error();
 }
 
+TEST(OpenFoamMesh, WithoutItsFilesIsAnErrorThatNamesOne) {
+  EXPECT_EQ(error_of([] { read_poly_mesh([](std::string_view) { return nullptr; }); }),
+            "points: no such file in the mesh");
+}
+
 TEST_F(BrokenMesh, NeedsEveryPointAndFace) {
   replace("faces", "4(2 24", "4(2 250000");
   EXPECT_NE(error().find("faces: face 0 names point 250000 of 462"), std::string::npos) << error();
