@@ -234,11 +234,23 @@ void set_heights(RunSetup& setup) {
   }
 }
 
+/// Times on disk are sums of steps: 0.3 s may be written 0.29999999999999998 [s].
+double rounding_of(const std::vector<double>& times) {
+  double gap = INFINITY;
+  for (std::size_t i = 1; i < times.size(); ++i) gap = std::min(gap, times[i] - times[i - 1]);
+  return 1e-6 * (std::isfinite(gap) ? gap : std::abs(times.front()));
+}
+
 }  // namespace
 
 void update_times(RunSetup& setup, const readers::Series& series) {
   const auto& settings = setup.settings;
   setup.times.clear();
+  if (series.form().stores_times) {  // and no steps, so that a time step says nothing
+    for (std::size_t i = 0; i < series.size(); ++i) setup.times.push_back(series.time(i));
+    setup.half_step = rounding_of(setup.times);
+    return;
+  }
   if (setup.time_step) {
     for (std::size_t i = 0; i < series.size(); ++i)
       setup.times.push_back(static_cast<double>(series.step(i) - settings.step_zero) *

@@ -56,7 +56,10 @@ struct Form {
   /// Is it this form? `head` holds the first bytes of the (decompressed) file, at most 4096.
   bool (*matches)(std::string_view head) = nullptr;
   /// Forms that are a folder as a whole (an OpenFOAM case): is this one? null for forms of files.
+  /// Also asked of names that are no folder on disk (a cloud of a case: CASE/kinematicCloud).
   bool (*matches_folder)(const std::string& folder) = nullptr;
+  /// Do snapshots have a time and no step? Then they are numbered from 0 on in the order of scan().
+  bool stores_times = false;
 
   /// Finds the snapshots of a file. `thorough` also makes sure that the last one is complete;
   /// without it only what the headers say is looked at.

@@ -65,7 +65,10 @@ OpenFoamCase OpenFoamCase::open(const std::string& path, const OpenFoamOptions& 
                  fmt::format("{}/{}/{}polyMesh/{}", folder.path, time.name, made->region, name))
                  .empty())
           made->moving = true;
-  made->start = made->read_mesh(0);
+  if (options.mesh_optional && !made->has_mesh())
+    made->start = std::make_shared<RankedMesh>();
+  else
+    made->start = made->read_mesh(0);
   return OpenFoamCase(std::move(made));
 }
 
@@ -82,6 +85,7 @@ std::shared_ptr<const Mesh> OpenFoamCase::mesh_at(std::size_t time) const {
 const std::vector<std::string>& OpenFoamCase::problems() const { return impl_->problems; }
 const std::vector<std::string>& OpenFoamCase::regions() const { return impl_->regions; }
 std::size_t OpenFoamCase::ranks() const { return impl_->ranks; }
+bool OpenFoamCase::collated() const { return impl_->folders.front().collated; }
 
 void OpenFoamCase::read(std::size_t time, std::string_view field, FieldValues& out) const {
   const auto& fields = impl_->times.at(time).fields;

@@ -17,6 +17,10 @@ std::string OpenFoamCase::Impl::mesh_file(const FoamFolder& folder, std::size_t 
   return plain_or_gz(fmt::format("{}/constant/{}", folder.path, file));
 }
 
+bool OpenFoamCase::Impl::has_mesh() const {
+  return !mesh_file(folders.front(), times.size() - 1, "points").empty();
+}
+
 void OpenFoamCase::Impl::read_addresses(std::size_t time, RankedMesh& mesh) const {
   std::size_t total = 0, with = 0;
   for (const auto cells : mesh.cells) total += cells;

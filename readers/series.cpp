@@ -55,11 +55,10 @@ Series Series::open(const std::string& where, const SeriesOptions& options) {
   Series series;
   std::error_code error;
   const auto status = fs::status(where, error);
-  if (fs::is_directory(status)) {
-    if (const auto* form = form_of_folder(where))
-      series.open_file(where, *form);
-    else
-      series.open_files(where, files_of_folder(where));
+  if (const auto* form = form_of_folder(where)) {
+    series.open_file(where, *form);
+  } else if (fs::is_directory(status)) {
+    series.open_files(where, files_of_folder(where));
   } else if (fs::exists(status) || where.find_first_of("*?[") == where.npos)
     series.open_file(where, identify(where));
   else
@@ -133,7 +132,9 @@ void Series::add(const std::string& path, FileScan scan, std::int64_t step_of_na
   for (const auto& problem : scan.problems)
     problems_.push_back(fmt::format("{}: {}", path, problem));
   for (auto& located : scan.snapshots) {
-    const auto step = located.step == no_step ? step_of_name : located.step;
+    const auto step = form_->stores_times         ? static_cast<std::int64_t>(entries_.size())
+                      : located.step == no_step ? step_of_name
+                                                : located.step;
     entries_.push_back({step, files_.size() - 1, std::move(located)});
   }
 }
