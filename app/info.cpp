@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.hpp"
+#include "app/info_case.hpp"
 #include "readers/series.hpp"
 #include "readers/survey.hpp"
 
@@ -79,6 +80,7 @@ void print(const readers::Series& series, const readers::Survey& survey) {
 }
 
 void run(const Options& options) {
+  if (info_openfoam(options.path, options.full, options.common.json)) return;
   const auto series = readers::Series::open(options.path);
   const bool one_file = series.files().size() == 1;
   const auto survey = readers::survey(series, options.full || one_file);
@@ -94,7 +96,10 @@ void add_info(CLI::App& app) {
   auto options = std::make_shared<Options>();
   auto* command =
       app.add_subcommand("info", "what is on disk: form, steps, columns, ranges, problems");
-  command->add_option("path", options->path, "a dump, a folder of dumps, or a pattern")->required();
+  command
+      ->add_option("path", options->path,
+                   "a dump, a folder of dumps, a pattern, or an OpenFOAM case")
+      ->required();
   command->add_flag("--full", options->full, "read the rows of every snapshot");
   add_common(*command, options->common);
   command->callback([options] { run(*options); });

@@ -120,6 +120,8 @@ void OpenFoamCase::read(std::size_t time, std::string_view field, FieldValues& o
       out.dimensions_known = part.dimensions_known;
       out.uniform = part.uniform;
       out.no_header = part.no_header;
+      out.binary = part.binary;
+      out.compressed = part.compressed;
       out.non_finite = {};
       out.values.resize(ranked->mesh.cells() * n);
     } else if (n != out.components || part.dimensions != out.dimensions) {

@@ -81,8 +81,8 @@ std::string chosen_cloud(const OpenFoamCase& foam, const CloudName& name) {
     throw InputError("{}: an OpenFOAM case without a Lagrangian cloud, expected particles",
                      name.root);
   if (name.cloud.empty() && clouds.size() > 1)
-    throw InputError("{}: several clouds ({}), name one: {}/{}", name.root,
-                     fmt::join(clouds, ", "), name.root, *clouds.begin());
+    throw InputError("{}: several clouds ({}), name one: {}/{}", name.root, fmt::join(clouds, ", "),
+                     name.root, *clouds.begin());
   return name.cloud.empty() ? *clouds.begin() : name.cloud;
 }
 
@@ -106,9 +106,8 @@ Box box_of(const Mesh& mesh) {
 }
 
 bool has_name(const Located& located, std::string_view name) {
-  return located.columns != nullptr &&
-         std::find(located.columns->begin(), located.columns->end(), name) !=
-             located.columns->end();
+  return located.columns != nullptr && std::find(located.columns->begin(), located.columns->end(),
+                                                 name) != located.columns->end();
 }
 
 void read(const std::string& path, const Located& where, const Request& request, Snapshot& out,
@@ -221,10 +220,9 @@ FileScan scan(const std::string& path, bool thorough) {
     found.cut = why_cut(last, before, found.problems);
     if (!found.cut.empty() && before == nullptr) throw CutError("{}", found.cut);
     if (!found.cut.empty()) {
-      found.cut = fmt::format("time {} is left out: {}",
-                              foam.times()[static_cast<const OpenCloud*>(last.context.get())->time]
-                                  .name,
-                              found.cut);
+      found.cut = fmt::format(
+          "time {} is left out: {}",
+          foam.times()[static_cast<const OpenCloud*>(last.context.get())->time].name, found.cut);
       found.snapshots.pop_back();
     }
   }
@@ -292,15 +290,14 @@ bool matches(const std::string& folder) { return split(folder).has_value(); }
 }  // namespace
 
 extern const Form openfoam_cloud;
-const Form openfoam_cloud{
-    .name = "openfoam-cloud",
-    .description = "Lagrangian cloud of an OpenFOAM case",
-    .reference = "OpenFOAM v1912, src/lagrangian/basic: IOPosition, particle",
-    .matches_folder = matches,
-    .stores_times = true,
-    .scan = scan,
-    .glance_tells = true,
-    .read = read,
-    .place = place};
+const Form openfoam_cloud{.name = "openfoam-cloud",
+                          .description = "Lagrangian cloud of an OpenFOAM case",
+                          .reference = "OpenFOAM v1912, src/lagrangian/basic: IOPosition, particle",
+                          .matches_folder = matches,
+                          .stores_times = true,
+                          .scan = scan,
+                          .glance_tells = true,
+                          .read = read,
+                          .place = place};
 
 }  // namespace bedscope::readers

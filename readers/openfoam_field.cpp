@@ -48,7 +48,7 @@ void read_dimensions(FoamStream& stream, FieldValues& out) {
 // The type in the class against the one of the list: they differ where a file was put together.
 const FoamType& agreed_type(const FoamStream& stream, std::uint64_t offset, std::string_view list,
                             const FoamHeader& header) {
-  const auto* said = vol_field_type(header.class_name);
+  const auto* said = mesh_field_type(header.class_name);
   const auto* type = said;
   if (list.starts_with("List<") && list.ends_with('>'))
     type = foam_type(list.substr(5, list.size() - 6));
@@ -88,7 +88,7 @@ void read_uniform(FoamStream& stream, const FoamHeader& header, std::optional<Fo
     value.push_back(number);
     if (!bracketed) break;
   }
-  const auto* type = vol_field_type(header.class_name);
+  const auto* type = mesh_field_type(header.class_name);
   const auto components = type != nullptr ? type->components : value.size();
   if (components != value.size() && !(type != nullptr && value.size() == 1 && value[0] == 0))
     stream.fail(stream.offset(), "expected {} numbers for {}, found {}", components,
@@ -138,30 +138,41 @@ bool has_macro(FoamStream& stream) {
 
 }  // namespace
 
-const FoamType* vol_field_type(std::string_view name) {
+const FoamType* mesh_field_type(std::string_view name) {
   const auto colons = name.find("::");
   const auto inner = colons == std::string_view::npos ? "" : name.substr(colons);
   if (!inner.empty() && inner != "::Internal" && inner != "::DimensionedInternalField")
     return nullptr;
   name = name.substr(0, colons);
-  if (!name.starts_with("vol") || !name.ends_with("Field") || name.size() < 9) return nullptr;
-  std::string type(name.substr(3, name.size() - 8));
-  type[0] = static_cast<char>(type[0] | 0x20);
-  return foam_type(type);
+  for (const std::string_view place : {"vol", "surface", "point"}) {
+    if (!name.starts_with(place) || !name.ends_with("Field")) continue;
+    std::string type(name.substr(place.size()));
+    if (type.size() < 6) return nullptr;
+    type.resize(type.size() - 5);
+    type[0] = static_cast<char>(type[0] | 0x20);
+    return foam_type(type);
+  }
+  return nullptr;
+}
+
+const FoamType* vol_field_type(std::string_view name) {
+  return name.starts_with("vol") ? mesh_field_type(name) : nullptr;
 }
 
 void read_field(FoamBlocks& file, std::optional<FoamCount> cells, FieldValues& out) {
   auto& stream = file.stream();
   const auto& header = file.header();
-  if (header.present && vol_field_type(header.class_name) == nullptr)
-    throw FormatError("{}: expected a field of cells (volScalarField ...), found class {}",
-                      stream.path(), header.class_name);
+  if (header.present && mesh_field_type(header.class_name) == nullptr)
+    throw FormatError("{}: expected a field (volScalarField ...), found class {}", stream.path(),
+                      header.class_name);
   const auto layout = layout_of(header, stream.path());
   // ::Internal calls it value, and has no boundary.
   const bool is_internal = header.class_name.find("::") != std::string::npos;
   const std::string_view key = is_internal ? "value" : "internalField";
   out.class_name = header.class_name;
   out.no_header = !header.present;
+  out.binary = layout.binary;
+  out.compressed = stream.compressed();
   out.dimensions_known = false;
   out.dimensions.fill(0);
   FoamEntries reader(stream);

@@ -150,12 +150,13 @@ std::vector<FoamFolder> find_folders(const std::string& root, Decomposition want
 }
 
 std::vector<std::string> openfoam_regions(const std::string& folder) {
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) return {};
   // The ranks have the regions of the whole case, which may have no mesh of its own.
   auto ranks = find_ranks(folder);
   std::vector<std::string> roots{folder};
   if (!ranks.separate.empty()) roots.push_back(ranks.separate.front().path);
   if (!ranks.collated.empty()) roots.push_back(ranks.collated.begin()->second.front().path);
-  std::error_code error;
   for (const auto& root : roots) {
     std::vector<std::string> regions;
     const fs::path constant = root + "/constant";

@@ -68,6 +68,9 @@ struct Mesh {
   std::vector<double> volumes;    ///< [m3]
   std::optional<BoxCells> boxes;  ///< where every cell is a box along the axes
   Point min{}, max{};             ///< of all points [m]
+  /// Patches of all ranks together; those between ranks are left out, and `start` is of the rank
+  /// that names the patch first.
+  std::vector<FoamPatch> patches;
 
   std::size_t cells() const { return volumes.size(); }
   double volume() const;  ///< of all cells [m3]

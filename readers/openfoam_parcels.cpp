@@ -154,8 +154,7 @@ std::optional<std::size_t> OpenFoamCase::parcels(std::size_t time, std::string_v
 std::vector<std::string> OpenFoamCase::cloud_columns(std::size_t time,
                                                      std::string_view cloud) const {
   std::vector<std::string> names;
-  for (const auto& column :
-       columns_of(*impl_, impl_->cloud_path(time, cloud)))
+  for (const auto& column : columns_of(*impl_, impl_->cloud_path(time, cloud)))
     names.push_back(column.name);
   return names;
 }

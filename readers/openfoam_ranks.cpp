@@ -5,6 +5,21 @@
 #include "readers/openfoam_case_impl.hpp"
 
 namespace bedscope::readers {
+namespace {
+
+void add_patches(const std::vector<FoamPatch>& of_rank, std::vector<FoamPatch>& all) {
+  for (const auto& patch : of_rank) {
+    if (patch.type.starts_with("processor")) continue;
+    const auto same = std::find_if(all.begin(), all.end(),
+                                   [&](const auto& other) { return other.name == patch.name; });
+    if (same == all.end())
+      all.push_back(patch);
+    else
+      same->faces += patch.faces;
+  }
+}
+
+}  // namespace
 
 // The newest file of a mesh at or before a time: times with points of their own move the mesh.
 std::string OpenFoamCase::Impl::mesh_file(const FoamFolder& folder, std::size_t time,
@@ -90,14 +105,18 @@ std::shared_ptr<const std::vector<CloudMesh>> OpenFoamCase::Impl::cloud_meshes(
 std::shared_ptr<const RankedMesh> OpenFoamCase::Impl::read_mesh(std::size_t time) const {
   auto made = std::make_shared<RankedMesh>();
   std::vector<CellGeometry> parts(ranks);
+  std::vector<FoamPatch> patches;
   for (const auto& folder : folders) {
     for (std::size_t k = 0; k < folder.ranks; ++k) {
-      parts[folder.first_rank + k] = cell_geometry(read_poly_mesh(mesh_opener(folder, k, time)));
+      const auto poly = read_poly_mesh(mesh_opener(folder, k, time));
+      parts[folder.first_rank + k] = cell_geometry(poly);
+      add_patches(poly.patches, patches);
     }
   }
   for (const auto& part : parts) made->cells.push_back(part.volumes.size());
   if (ranks == 1) {
     made->mesh = make_mesh(std::move(parts.front()));
+    made->mesh.patches = std::move(patches);
     return made;
   }
   read_addresses(time, *made);
@@ -117,6 +136,7 @@ std::shared_ptr<const RankedMesh> OpenFoamCase::Impl::read_mesh(std::size_t time
       all.high[cell] = parts[rank].high[c];
     }
   made->mesh = make_mesh(std::move(all));
+  made->mesh.patches = std::move(patches);
   return made;
 }
 

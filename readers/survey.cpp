@@ -10,6 +10,8 @@ namespace {
 
 constexpr std::size_t sample = 10;
 
+}  // namespace
+
 std::vector<std::size_t> chosen_snapshots(std::size_t count, bool full) {
   std::vector<std::size_t> chosen;
   const std::size_t picks = full ? count : std::min(count, sample);
@@ -17,8 +19,6 @@ std::vector<std::size_t> chosen_snapshots(std::size_t count, bool full) {
     chosen.push_back(picks == 1 ? 0 : k * (count - 1) / (picks - 1));
   return chosen;
 }
-
-}  // namespace
 
 Survey survey(const Series& series, bool full) {
   Survey found;

@@ -23,6 +23,9 @@ struct Survey {
   std::vector<std::string> problems;
 };
 
+/// The first of `count` snapshots, the last and eight between, or all (`full`), ascending.
+std::vector<std::size_t> chosen_snapshots(std::size_t count, bool full);
+
 /// Reads the rows of the first, the last and eight snapshots between, or of all (`full`).
 Survey survey(const Series& series, bool full);
 
