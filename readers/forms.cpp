@@ -11,7 +11,8 @@ namespace bedscope::readers {
 extern const Form liggghts_text, openfoam_cloud, vtk_legacy, vtk_xml;
 
 std::span<const Form* const> forms() {
-  static constexpr std::array<const Form*, 4> all{&liggghts_text, &openfoam_cloud, &vtk_legacy, &vtk_xml};
+  static constexpr std::array<const Form*, 4> all{&liggghts_text, &openfoam_cloud, &vtk_legacy,
+                                                  &vtk_xml};
   return all;
 }
 

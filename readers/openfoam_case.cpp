@@ -69,7 +69,14 @@ OpenFoamCase OpenFoamCase::open(const std::string& path, const OpenFoamOptions& 
     made->start = std::make_shared<RankedMesh>();
   else
     made->start = made->read_mesh(0);
-  return OpenFoamCase(std::move(made));
+  OpenFoamCase foam(made);
+  if (made->times.size() == 1) return foam;  // told when the cloud is read
+  if (const auto why = made->why_clouds_are_cut(foam); !why.empty()) {
+    const auto name = made->times.back().name;
+    made->times.pop_back();
+    made->problems.push_back(fmt::format("time {} is left out: {}", name, why));
+  }
+  return foam;
 }
 
 const std::vector<OpenFoamTime>& OpenFoamCase::times() const { return impl_->times; }

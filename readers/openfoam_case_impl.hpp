@@ -80,6 +80,7 @@ struct OpenFoamCase::Impl {
   std::string class_of(const std::string& field) const;
   void tell_missing();
   void check_last_time();
+  std::string why_clouds_are_cut(const OpenFoamCase& foam) const;
   std::string mesh_file(const FoamFolder& folder, std::size_t time, std::string_view name) const;
   OpenMeshFile mesh_opener(const FoamFolder& folder, std::size_t block, std::size_t time) const;
   bool has_mesh() const;

@@ -110,53 +110,27 @@ bool has_name(const Located& located, std::string_view name) {
                                                  name) != located.columns->end();
 }
 
-void read(const std::string& path, const Located& where, const Request& request, Snapshot& out,
-          Scratch& scratch);
-
 // One parcel stands for nParticle particles; told, as numbers of particles are then of parcels.
-void tell_parcels(const std::string& path, const std::vector<Located>& snapshots,
-                  std::vector<std::string>& problems) {
+void tell_parcels(const std::vector<Located>& snapshots, std::vector<std::string>& problems) {
   double least = INFINITY, most = -INFINITY;
   Snapshot rows;
-  Scratch scratch;
-  for (const std::size_t i : {std::size_t{0}, snapshots.size() - 1}) {
-    if (!has_name(snapshots[i], "nParticle")) continue;
-    read(path, snapshots[i], {{"nParticle"}}, rows, scratch);
+  std::vector<const Located*> looked_at{&snapshots.front()};
+  if (snapshots.size() > 1) looked_at.push_back(&snapshots.back());
+  for (const auto* located : looked_at) {
+    if (located->particles == 0) continue;
+    const auto& open = *static_cast<const OpenCloud*>(located->context.get());
+    for (auto& problem : open.foam.read_cloud(open.time, open.cloud, {{"nParticle", false}}, rows))
+      problems.push_back(std::move(problem));
     for (const double n : rows.columns[0]) {
       least = std::min(least, n);
       most = std::max(most, n);
     }
   }
-  if (least == 1 && most == 1) return;
-  if (most >= least)
-    problems.push_back(
-        fmt::format("one parcel stands for {:.6g} to {:.6g} particles (nParticle): it is taken as "
-                    "one sphere of their volume, and numbers are of parcels",
-                    least, most));
-}
-
-// A run that was killed leaves the last time without some of its files, or with cut ones.
-std::string why_cut(const Located& last, const Located* before,
-                    std::vector<std::string>& problems) {
-  Request all;
-  for (const auto& name : before != nullptr ? *before->columns : *last.columns)
-    all.push_back({name});
-  Snapshot rows;
-  try {
-    const auto& open = *static_cast<const OpenCloud*>(last.context.get());
-    for (auto& problem : open.foam.read_cloud(open.time, open.cloud, all, rows))
-      problems.push_back(std::move(problem));
-  } catch (const CutError& error) {
-    return error.what();
-  } catch (const FileError& error) {
-    return error.what();
-  } catch (const FormatError& error) {
-    // Of the columns of the time before, is one missing?
-    for (const auto& one : all)
-      if (!has_name(last, one.name))
-        return fmt::format("{} is missing at time {}", one.name, last.time);
-  }
-  return {};
+  if (most < least || (least == 1 && most == 1)) return;
+  problems.push_back(
+      fmt::format("one parcel stands for {:.6g} to {:.6g} particles (nParticle): it is taken as "
+                  "one sphere of their volume, and numbers are of parcels",
+                  least, most));
 }
 
 FileScan scan(const std::string& path, bool thorough) {
@@ -172,14 +146,7 @@ FileScan scan(const std::string& path, bool thorough) {
   std::vector<std::string> lacking;
   Names parts, columns;
   for (std::size_t t = 0; t < foam.times().size(); ++t) {
-    std::optional<std::size_t> parcels;
-    try {
-      parcels = foam.parcels(t, cloud);
-    } catch (const CutError& error) {
-      if (t + 1 < foam.times().size() || found.snapshots.empty()) throw;
-      found.cut = error.what();
-      break;
-    }
+    const auto parcels = foam.parcels(t, cloud);
     if (!parcels) {  // before the first: initial fields come without a cloud
       if (!found.snapshots.empty()) lacking.push_back(foam.times()[t].name);
       continue;
@@ -213,20 +180,7 @@ FileScan scan(const std::string& path, bool thorough) {
     located.columns = columns;
     located.parts = parts;
   }
-  auto& last = found.snapshots.back();
-  if (thorough && last.particles > 0 && found.cut.empty()) {
-    const auto* before =
-        found.snapshots.size() > 1 ? &found.snapshots[found.snapshots.size() - 2] : nullptr;
-    found.cut = why_cut(last, before, found.problems);
-    if (!found.cut.empty() && before == nullptr) throw CutError("{}", found.cut);
-    if (!found.cut.empty()) {
-      found.cut = fmt::format(
-          "time {} is left out: {}",
-          foam.times()[static_cast<const OpenCloud*>(last.context.get())->time].name, found.cut);
-      found.snapshots.pop_back();
-    }
-  }
-  if (thorough) tell_parcels(path, found.snapshots, found.problems);
+  if (thorough) tell_parcels(found.snapshots, found.problems);
   return found;
 }
 

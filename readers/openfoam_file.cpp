@@ -35,9 +35,8 @@ class Summariser {
     }
     if (needs_mesh_) place_by_mesh();
     if (made_.non_finite > 0)
-      made_.problems.push_back(fmt::format("{} {} are nan or inf, the first is {} {}",
-                                           made_.non_finite, made_.what, made_.what,
-                                           first_non_finite_));
+      made_.problems.push_back(fmt::format("{} {} are nan or inf, the first is {}",
+                                           made_.non_finite, made_.what, first_non_finite_));
     return std::move(made_);
   }
 

@@ -132,7 +132,7 @@ void Series::add(const std::string& path, FileScan scan, std::int64_t step_of_na
   for (const auto& problem : scan.problems)
     problems_.push_back(fmt::format("{}: {}", path, problem));
   for (auto& located : scan.snapshots) {
-    const auto step = form_->stores_times         ? static_cast<std::int64_t>(entries_.size())
+    const auto step = form_->stores_times       ? static_cast<std::int64_t>(entries_.size())
                       : located.step == no_step ? step_of_name
                                                 : located.step;
     entries_.push_back({step, files_.size() - 1, std::move(located)});
