@@ -33,7 +33,12 @@ class Summariser {
       add_block(block);
       if (made_.count) made_.blocks.push_back(*made_.count - before);
     }
-    if (needs_mesh_) place_by_mesh();
+    if (needs_mesh_) try {
+        place_by_mesh();
+      } catch (const FileError& error) {
+        made_.problems.push_back(
+            fmt::format("barycentric coordinates without their mesh: {}", error.what()));
+      }
     if (made_.non_finite > 0)
       made_.problems.push_back(fmt::format("{} {} are nan or inf, the first is {}",
                                            made_.non_finite, made_.what, first_non_finite_));
@@ -63,7 +68,7 @@ class Summariser {
     } else if (name == "faceList" || name == "faceCompactList") {
       add_faces(layout);
     } else if (name.starts_with("Cloud<")) {
-      add_parcels();
+      add_parcels(block);
     } else if (name == "polyBoundaryMesh") {
       add("patches", read_named_list(stream).entries.size());
     } else if (name == "dictionary") {
@@ -119,7 +124,7 @@ class Summariser {
     add_values(1, {});
   }
 
-  void add_parcels() {
+  void add_parcels(std::size_t block) {
     CloudPoints points;
     made_.what = "parcels";
     try {
@@ -127,6 +132,7 @@ class Summariser {
           file_, []() -> const CloudMesh& { throw NeedsMesh(); }, points);
     } catch (const NeedsMesh&) {
       needs_mesh_ = true;
+      add("parcels", parcels_of(path_, block));
       return;
     }
     values_.clear();
@@ -168,8 +174,6 @@ class Summariser {
     made_.ranges.resize(3);
     for (std::size_t k = 0; k < 3; ++k)
       for (const double x : parcels.columns[k]) made_.ranges[k].add(x);
-    made_.count = parcels.particles;
-    made_.blocks.assign(1, parcels.particles);
   }
 
   // scalarField, vectorList ...: their type of values.
@@ -184,12 +188,16 @@ class Summariser {
     for (const auto* name : {"coordinates", "positions"}) {
       const auto path = plain_or_gz((fs::path(path_).parent_path() / name).string());
       if (path.empty()) continue;
-      FoamBlocks positions(path);
-      for (std::size_t k = 0; k <= block; ++k)
-        if (!positions.next()) return std::nullopt;
-      return FoamCount{read_cloud_count(positions), "positions", "entries"};
+      return FoamCount{parcels_of(path, block), "positions", "entries"};
     }
     return std::nullopt;
+  }
+
+  static std::size_t parcels_of(const std::string& path, std::size_t block) {
+    FoamBlocks positions(path);
+    for (std::size_t k = 0; k <= block; ++k)
+      if (!positions.next()) return 0;
+    return read_cloud_count(positions);
   }
 
   const std::string path_;
