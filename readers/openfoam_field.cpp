@@ -71,6 +71,12 @@ void read_nonuniform(FoamStream& stream, const FoamLayout& layout, const FoamHea
   out.non_finite = read_values(stream, layout, type, cells, out.values);
 }
 
+void refuse_code(const FoamStream& stream, const FoamToken& token, std::string_view expected) {
+  if (token.kind == FoamToken::Kind::directive)
+    throw CodeError("{}: expected {}, found \"{}\", which is never run", stream.path(), expected,
+                    token.text);
+}
+
 // One value for all cells: `0`, `(0 0 1)`.
 void read_uniform(FoamStream& stream, const FoamHeader& header, std::optional<FoamCount> cells,
                   FieldValues& out) {
@@ -81,10 +87,10 @@ void read_uniform(FoamStream& stream, const FoamHeader& header, std::optional<Fo
     if (bracketed && token.is(')')) break;
     double number = 0;
     if (token.at_end()) stream.fail_cut("expected the value of a uniform field, found end of file");
+    refuse_code(stream, token, "a number after uniform");
     if (!parse_number(token.text.data(), token.text.data() + token.text.size(), number) ||
         value.size() == 9)
-      stream.fail(token.offset, "expected a number after uniform, found \"{}\"{}", token.text,
-                  token.kind == FoamToken::Kind::directive ? ", which is never run" : "");
+      stream.fail(token.offset, "expected a number after uniform, found \"{}\"", token.text);
     value.push_back(number);
     if (!bracketed) break;
   }
@@ -107,6 +113,7 @@ void read_uniform(FoamStream& stream, const FoamHeader& header, std::optional<Fo
 void read_internal(FoamStream& stream, const FoamLayout& layout, const FoamHeader& header,
                    std::optional<FoamCount> cells, FieldValues& out) {
   const auto word = stream.next();
+  refuse_code(stream, word, "uniform or nonuniform");
   if (word.text == "nonuniform")
     read_nonuniform(stream, layout, header, cells, out);
   else if (word.text == "uniform")
@@ -114,8 +121,7 @@ void read_internal(FoamStream& stream, const FoamLayout& layout, const FoamHeade
   else if (word.at_end())
     stream.fail_cut("expected uniform or nonuniform, found end of file");
   else
-    stream.fail(word.offset, "expected uniform or nonuniform, found \"{}\"{}", word.text,
-                word.kind == FoamToken::Kind::directive ? ", which is never run" : "");
+    stream.fail(word.offset, "expected uniform or nonuniform, found \"{}\"", word.text);
 }
 
 // A value with a macro in it: the text with all macros put in, read as if it stood there.

@@ -28,6 +28,12 @@ struct FieldValues {
   bool binary = false, compressed = false;  ///< how it lies on disk
 };
 
+/// A value that OpenFOAM computes when it reads the file (#calc, #codeStream): code is never run.
+class CodeError : public FormatError {
+ public:
+  using FormatError::FormatError;
+};
+
 /// The class of a field as type of its values ("volVectorField", "volVectorField::Internal",
 /// older "volVectorField::DimensionedInternalField"); null for other classes (surface and point
 /// fields too).
@@ -39,7 +45,7 @@ const FoamType* mesh_field_type(std::string_view class_name);
 /// Reads a field out of an open file or block. `where` names the block in errors. The boundary is
 /// only followed as far as its braces need.
 /// Fields of faces and points are read alike.
-/// Throws FormatError (line, expected, found) and CutError where the file ends early.
+/// Throws FormatError (line, expected, found), CodeError, and CutError where the file ends early.
 void read_field(FoamBlocks& file, std::optional<FoamCount> cells, FieldValues& out);
 
 }  // namespace bedscope::readers

@@ -52,6 +52,7 @@ class Summariser {
     const auto layout = layout_of(file_.header(), path_);
     if (mesh_field_type(name) != nullptr) {
       add_mesh_field();
+    } else if (!expected(block) && add_uniform_list(block)) {
     } else if (const auto* type = list_type(name)) {
       NonFinite bad = read_values(stream, layout, *type, expected(block), values_);
       if (name == "vectorField" && fs::path(path_).filename().string().starts_with("points"))
@@ -94,7 +95,12 @@ class Summariser {
 
   void add_mesh_field() {
     FieldValues field;
-    read_field(file_, std::nullopt, field);
+    try {
+      read_field(file_, std::nullopt, field);
+    } catch (const CodeError& error) {
+      made_.problems.emplace_back(error.what());
+      return;
+    }
     made_.dimensions = field.dimensions;
     made_.dimensions_known = field.dimensions_known;
     made_.what = field.class_name.starts_with("vol")       ? "cells"
@@ -106,6 +112,33 @@ class Summariser {
     if (!field.uniform) return;
     made_.uniform = true;
     made_.count = count;
+  }
+
+  // `N{value}` with nothing beside it that bounds N: the value is taken, not repeated.
+  bool add_uniform_list(std::size_t block) {
+    FoamBlocks again(path_);
+    for (std::size_t k = 0; k <= block; ++k)
+      if (!again.next()) return false;
+    auto& stream = again.stream();
+    const auto count = stream.next();
+    std::int64_t number = 0;
+    bool overflow = false;
+    if (!parse_integer(count.text, number, overflow) || number < 0 || !stream.take('{'))
+      return false;
+    values_.clear();
+    for (auto token = stream.next(); !token.is('}'); token = stream.next()) {
+      if (token.at_end()) stream.fail_cut("expected \"}}\" of a uniform list, found end of file");
+      if (token.kind == FoamToken::Kind::sign) continue;
+      double value = 0;
+      if (!parse_number(token.text.data(), token.text.data() + token.text.size(), value))
+        stream.fail(token.offset, "not a number in a uniform list: \"{}\"", token.text);
+      values_.push_back(value);
+    }
+    made_.uniform = true;
+    made_.ranges.resize(values_.size());
+    add_to_ranges(values_, made_.ranges);
+    add("values", static_cast<std::size_t>(number));
+    return true;
   }
 
   void add_labels(std::string_view what) {

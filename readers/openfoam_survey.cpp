@@ -50,8 +50,13 @@ class Surveyor {
 
  private:
   void add_field(std::size_t time, const std::string& name) {
-    foam_.read(time, name, values_);
     auto& field = fields_[name];
+    try {
+      foam_.read(time, name, values_);
+    } catch (const CodeError& error) {  // the start of a case that was never run
+      found_.problems.emplace_back(error.what());
+      return;
+    }
     ++field.times_read;
     if (values_.uniform) ++field.times_uniform;
     field.class_name = values_.class_name;

@@ -45,8 +45,7 @@ TEST(OpenFoamFile, RangesOfAFieldLeaveOutWhatIsNotFinite) {
 TEST(OpenFoamFile, UniformListOfACloudIsBoundedByItsPositions) {
   const Folder folder;
   const auto d = folder.write("d", header("scalarField") + "1099511627776{0.002}\n");
-  EXPECT_NE(error_of([&] { summarise_openfoam_file(d); }).find("their number is not known"),
-            std::string::npos);
+  EXPECT_EQ(summarise_openfoam_file(d).count, 1099511627776U);  // claimed, and not repeated
   folder.write("positions", header("Cloud<parcel>") + "2((0 0 0) 0 (1 1 1) 0)\n");
   EXPECT_NE(error_of([&] { summarise_openfoam_file(d); }).find("positions has 2 entries"),
             std::string::npos);
@@ -91,7 +90,9 @@ TEST(OpenFoamFile, CorpusFilesAreWhatTheTableSays) {
     const bool binary = note.starts_with("binary") || note.find("inner format binary") != note.npos;
     EXPECT_EQ(file.binary, binary) << note;
     EXPECT_EQ(file.compressed, note.find(" gz") != note.npos);
-    if (cell("n") == "uniform" || note.find("'uniform', 'uniform'") != note.npos) {
+    if (path.ends_with("ascii/0/T")) {  // the table saw a uniform value behind the code
+      EXPECT_NE(file.problems.at(0).find("#codeStream"), std::string::npos);
+    } else if (cell("n") == "uniform" || note.find("'uniform', 'uniform'") != note.npos) {
       EXPECT_TRUE(file.uniform);
     } else if (!cell("n").empty()) {
       ASSERT_TRUE(file.count.has_value());
