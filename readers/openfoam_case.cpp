@@ -108,48 +108,31 @@ void OpenFoamCase::read(std::size_t time, std::string_view field, FieldValues& o
     });
     return;
   }
-  FieldValues part;
-  std::vector<double> value;  // of the first rank, where that is uniform
-  const auto head = [](const FieldValues& from) {
-    return std::vector<double>(
-        from.values.begin(),
-        from.values.begin() + static_cast<std::ptrdiff_t>(
-                                  std::min<std::size_t>(from.values.size(), from.components)));
-  };
-  bool first = true;
+  // All ranks into their places; where the field is uniform, rank by rank, it is as a whole if the
+  // values agree.
+  unsigned components = 0;
+  std::array<double, 7> dimensions{};
+  std::vector<double> value;
+  std::size_t non_finite = 0;
+  bool uniform = true;
   impl_->for_each_rank(relative, [&](std::size_t rank, FoamBlocks& file) {
-    read_field(file, FoamCount{ranked->cells[rank]}, part);
-    const auto n = part.components;
-    if (first) {
-      out.class_name = part.class_name;
-      out.components = n;
-      out.dimensions = part.dimensions;
-      out.dimensions_known = part.dimensions_known;
-      out.uniform = part.uniform;
-      out.no_header = part.no_header;
-      out.binary = part.binary;
-      out.compressed = part.compressed;
-      out.non_finite = {};
-      out.values.resize(ranked->mesh.cells() * n);
-    } else if (n != out.components || part.dimensions != out.dimensions) {
+    const auto& runs = ranked->runs[rank];
+    const FoamPlaces places{runs, ranked->cells[rank], ranked->mesh.cells()};
+    read_field(file, FoamCount{ranked->cells[rank]}, out, &places);
+    if (rank > 0 && (out.components != components || out.dimensions != dimensions))
       throw FormatError("{}: processor {}: type or dimensions differ from those of processor 0",
                         file.stream().path(), rank);
-    }
-    const auto& address = ranked->address[rank];
-    // Cells follow one another in rows, so rows are copied.
-    for (std::size_t c = 0, next = 0; c < address.size(); c = next) {
-      for (next = c + 1; next < address.size() && address[next] == address[next - 1] + 1;) ++next;
-      std::copy_n(part.values.begin() + static_cast<std::ptrdiff_t>(c * n), (next - c) * n,
-                  out.values.begin() +
-                      static_cast<std::ptrdiff_t>(static_cast<std::size_t>(address[c]) * n));
-    }
-    out.non_finite.values += part.non_finite.values;
-    out.uniform =
-        out.uniform && part.uniform && (first || part.values.empty() || value == head(part));
-    if (first) value = head(part);
-    first = false;
+    components = out.components;
+    dimensions = out.dimensions;
+    non_finite += out.non_finite.values;
+    if (runs.empty()) return;
+    const auto first = out.values.begin() + std::ptrdiff_t{runs[0].place} * components;
+    if (value.empty()) value.assign(first, first + components);
+    uniform = uniform && out.uniform && std::equal(value.begin(), value.end(), first);
   });
-  for (std::size_t c = 0; out.non_finite.values > 0; ++c) {  // there is one
+  out.uniform = uniform;
+  out.non_finite = {non_finite, 0};
+  for (std::size_t c = 0; non_finite > 0; ++c) {  // there is one
     const auto* at = out.values.data() + c * out.components;
     out.non_finite.first = c;
     if (!std::all_of(at, at + out.components, [](double x) { return x - x == 0; })) break;

@@ -14,8 +14,8 @@ namespace bedscope::readers {
 // A mesh together with where the cells of each rank go.
 struct RankedMesh {
   Mesh mesh;
-  std::vector<std::size_t> cells;                  // of each rank
-  std::vector<std::vector<std::int32_t>> address;  // of each rank's cells in the case
+  std::vector<std::size_t> cells;          // of each rank
+  std::vector<std::vector<FoamRun>> runs;  // of each rank's cells, where they are in the case
 };
 
 struct OpenFoamCase::Impl {

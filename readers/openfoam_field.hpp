@@ -46,6 +46,8 @@ const FoamType* mesh_field_type(std::string_view class_name);
 /// only followed as far as its braces need.
 /// Fields of faces and points are read alike.
 /// Throws FormatError (line, expected, found), CodeError, and CutError where the file ends early.
-void read_field(FoamBlocks& file, std::optional<FoamCount> cells, FieldValues& out);
+/// With `places` (of the cells of a rank in the whole mesh) the values go there.
+void read_field(FoamBlocks& file, std::optional<FoamCount> cells, FieldValues& out,
+                const FoamPlaces* places = nullptr);
 
 }  // namespace bedscope::readers

@@ -40,7 +40,8 @@ void OpenFoamCase::Impl::read_addresses(std::size_t time, RankedMesh& mesh) cons
   std::size_t total = 0, with = 0;
   for (const auto cells : mesh.cells) total += cells;
   std::vector<bool> taken(total);
-  mesh.address.resize(ranks);
+  mesh.runs.resize(ranks);
+  std::vector<std::int32_t> address;
   for (const auto& folder : folders) {
     const auto path = mesh_file(folder, time, "cellProcAddressing");
     if (path.empty()) continue;
@@ -48,7 +49,6 @@ void OpenFoamCase::Impl::read_addresses(std::size_t time, RankedMesh& mesh) cons
     for (std::size_t k = 0; k < folder.ranks; ++k, ++with) {
       const auto rank = folder.first_rank + k;
       if (!file.next()) throw CutError("{}: expected {} blocks, found {}", path, folder.ranks, k);
-      auto& address = mesh.address[rank];
       read_labels(file.stream(), layout_of(file.header(), path), address);
       if (address.size() != mesh.cells[rank])
         throw FormatError("{}: processor {}: {} cells, its mesh has {}", path, rank, address.size(),
@@ -61,6 +61,11 @@ void OpenFoamCase::Impl::read_addresses(std::size_t time, RankedMesh& mesh) cons
         if (taken[static_cast<std::size_t>(cell)])
           throw FormatError("{}: processor {} names cell {} a second time", path, rank, cell);
         taken[static_cast<std::size_t>(cell)] = true;
+        auto& runs = mesh.runs[rank];
+        if (!runs.empty() && runs.back().place + runs.back().count == cell)
+          ++runs.back().count;
+        else
+          runs.push_back({cell, 1});
       }
     }
   }
@@ -69,8 +74,11 @@ void OpenFoamCase::Impl::read_addresses(std::size_t time, RankedMesh& mesh) cons
                       with);
   if (with > 0) return;
   std::int32_t next = 0;  // rank after rank, the mesh and the fields alike
-  for (std::size_t rank = 0; rank < ranks; ++rank)
-    for (std::size_t c = 0; c < mesh.cells[rank]; ++c) mesh.address[rank].push_back(next++);
+  for (std::size_t rank = 0; rank < ranks; ++rank) {
+    const auto cells = static_cast<std::int32_t>(mesh.cells[rank]);
+    if (cells > 0) mesh.runs[rank].push_back({next, cells});
+    next += cells;
+  }
 }
 
 OpenMeshFile OpenFoamCase::Impl::mesh_opener(const FoamFolder& folder, std::size_t block,
@@ -127,14 +135,19 @@ std::shared_ptr<const RankedMesh> OpenFoamCase::Impl::read_mesh(std::size_t time
   all.volumes.resize(total);
   all.low.resize(total);
   all.high.resize(total);
-  for (std::size_t rank = 0; rank < ranks; ++rank)
-    for (std::size_t c = 0; c < made->cells[rank]; ++c) {
-      const auto cell = static_cast<std::size_t>(made->address[rank][c]);
-      all.centres[cell] = parts[rank].centres[c];
-      all.volumes[cell] = parts[rank].volumes[c];
-      all.low[cell] = parts[rank].low[c];
-      all.high[cell] = parts[rank].high[c];
+  for (std::size_t rank = 0; rank < ranks; ++rank) {
+    std::ptrdiff_t from = 0;
+    for (const auto& run : made->runs[rank]) {
+      const auto put = [&](const auto& part, auto& whole) {
+        std::copy_n(part.begin() + from, run.count, whole.begin() + run.place);
+      };
+      put(parts[rank].centres, all.centres);
+      put(parts[rank].volumes, all.volumes);
+      put(parts[rank].low, all.low);
+      put(parts[rank].high, all.high);
+      from += run.count;
     }
+  }
   made->mesh = make_mesh(std::move(all));
   made->mesh.patches = std::move(patches);
   return made;
