@@ -113,11 +113,12 @@ void OpenFoamCase::read(std::size_t time, std::string_view field, FieldValues& o
   unsigned components = 0;
   std::array<double, 7> dimensions{};
   std::vector<double> value;
+  std::vector<double> piece;
   std::size_t non_finite = 0;
   bool uniform = true;
   impl_->for_each_rank(relative, [&](std::size_t rank, FoamBlocks& file) {
     const auto& runs = ranked->runs[rank];
-    const FoamPlaces places{runs, ranked->cells[rank], ranked->mesh.cells()};
+    const FoamPlaces places{runs, ranked->cells[rank], ranked->mesh.cells(), &piece};
     read_field(file, FoamCount{ranked->cells[rank]}, out, &places);
     if (rank > 0 && (out.components != components || out.dimensions != dimensions))
       throw FormatError("{}: processor {}: type or dimensions differ from those of processor 0",

@@ -66,6 +66,7 @@ struct FoamPlaces {
   std::span<const FoamRun> runs;
   std::size_t count = 0;  ///< values of all runs
   std::size_t size = 0;
+  std::vector<double>* piece = nullptr;  ///< memory on the way there, kept from list to list
 };
 
 /// Reads a list of scalars, vectors ... into `out`, components of a value together; with `places`
