@@ -122,6 +122,8 @@ class Sink {
   }
 
  private:
+  static constexpr std::size_t rows_ahead = 4, line = 64 / sizeof(double);
+
   void note_non_finite(const double* from, std::size_t numbers) {
     for (std::size_t value = 0; value < numbers / components_; ++value) {
       if (count_non_finite(from + value * components_, components_) == 0) continue;
@@ -129,20 +131,16 @@ class Sink {
     }
   }
 
-  // The processor fetches ahead within a row; where the next rows begin it must be told. Measured:
-  // a decomposed case is read in 1.4 times the time of a whole one instead of 1.6.
-  void fetch_ahead() const {
-    constexpr std::size_t rows = 4, line = 64 / sizeof(double);
-    if (run_ + rows >= places_->runs.size()) return;
-    const auto& run = places_->runs[run_ + rows];
-    const double* at = out_.data() + static_cast<std::size_t>(run.place) * components_;
-    const double* const end = at + static_cast<std::size_t>(run.count) * components_;
-    for (; at < end; at += line) __builtin_prefetch(at, 1);
-  }
-
   void put(const double* from, std::size_t count) {
     while (count > 0) {
-      fetch_ahead();
+      // The processor fetches ahead within a row; where the next ones begin it must be told. (In
+      // a function of its own GCC 12 drops this, as it has no effect.)
+      if (run_ + rows_ahead < places_->runs.size()) {
+        const auto& later = places_->runs[run_ + rows_ahead];
+        const double* at = out_.data() + static_cast<std::size_t>(later.place) * components_;
+        const double* const end = at + static_cast<std::size_t>(later.count) * components_;
+        for (; at < end; at += line) __builtin_prefetch(at, 1);
+      }
       const auto& run = places_->runs[run_];
       const auto now = std::min(count, static_cast<std::size_t>(run.count) - of_run_);
       const auto to = static_cast<std::size_t>(run.place) + of_run_;
