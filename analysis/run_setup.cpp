@@ -46,7 +46,12 @@ class FirstRows {
   readers::Snapshot snapshot_;
 };
 
-void find_time_step(const readers::LiggghtsLog& log, RunSetup& setup) {
+void find_time_step(const readers::LiggghtsLog& log, bool times_in_dumps, RunSetup& setup) {
+  if (times_in_dumps) {
+    if (setup.settings.time_step)
+      setup.problems.emplace_back("time_step is not used: the snapshots tell their times");
+    return;
+  }
   setup.time_step = setup.settings.time_step;
   if (setup.time_step || !log.time_step) return;
   setup.time_step = log.time_step;
@@ -281,7 +286,7 @@ RunSetup set_up(const RunSettings& settings, const readers::Series& series) {
   RunSetup setup;
   setup.settings = settings;
   const auto log = readers::find_log(series.path(0));
-  find_time_step(log, setup);
+  find_time_step(log, series.form().stores_times, setup);
   update_times(setup, series);
 
   const bool empty = series.parts().empty();  // not one particle in all dumps, and no columns
