@@ -241,7 +241,8 @@ Outcome info(const std::string& path) {
 /// The places and numbers of the wanted text: "line 16", "offset 402", "array radius", "id 282".
 std::vector<std::string> essentials(const std::string& must) {
   static const std::regex place(
-      "(line|offset|array|id|step|snapshot|point|column|cell|compressor|piece|face|parcel|record|block) "
+      "(line|offset|array|id|step|snapshot|point|column|cell|compressor|piece|face|parcel|record|"
+      "block) "
       "([0-9]+|\"[^\" ]+\"|radius|id|vtkFooCompressor)\\b"
       "|[0-9]+ declared, [0-9]+ present|[0-9]+ values expected|[0-9]+ tuples, [0-9]+ points|is not "
       "a number");
