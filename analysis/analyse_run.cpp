@@ -10,6 +10,8 @@
 #include <optional>
 #include <thread>
 
+#include "analysis/fluctuations.hpp"
+#include "analysis/gas_run.hpp"
 #include "analysis/run_sums.hpp"
 #include "readers/error.hpp"
 
@@ -21,40 +23,50 @@ constexpr std::size_t most_frames = 8;
 struct Item {
   SnapshotProduct product;
   ProductScratch scratch;
+  std::optional<VoidageCheck> check;  // against the gas of the same time
+  GasScratch gas_scratch;
 };
 
-void make_item(const RunSetup& setup, const readers::Series& series, std::size_t i, Item& item) {
-  try {
-    make_product(setup, series, i, item.product, item.scratch);
-  } catch (...) {  // thrown again in the order of the series, whoever met it first
-    item.product.error = std::current_exception();
-  }
-}
+struct GasItem {
+  GasProduct product;
+  GasScratch scratch;
+};
 
-/// Computes the products of snapshots [first, last) in parallel and hands them over in order.
-template <class Take>
-void for_each_product(const RunSetup& setup, const readers::Series& series, std::size_t first,
-                      std::size_t last, int threads, Take&& take) {
-  const auto deliver = [&](Item& item) {
-    if (item.product.error) std::rethrow_exception(item.product.error);
-    take(item.product);
+/// Calls make(i, item) for each i in [first, last), in parallel on items of their own, and
+/// take(item) in order.
+template <class Made, class Make, class Take>
+void for_each_in_order(std::size_t first, std::size_t last, int threads, Make&& make, Take&& take) {
+  struct Job {
+    Made item;
+    std::exception_ptr error;
+  };
+  const auto make_job = [&](std::size_t i, Job& job) {
+    try {
+      make(i, job.item);
+    } catch (...) {  // thrown again in the order of the series, whoever met it first
+      job.error = std::current_exception();
+    }
+  };
+  const auto deliver = [&](Job& job) {
+    if (job.error) std::rethrow_exception(job.error);
+    take(job.item);
   };
   if (threads == 1 || last - first < 2) {
-    Item item;
+    Job job;
     for (std::size_t i = first; i < last; ++i) {
-      make_item(setup, series, i, item);
-      deliver(item);
+      make_job(i, job);
+      deliver(job);
     }
     return;
   }
   // Each thread takes the next snapshot and makes its product; whoever finishes the one whose turn
   // it is hands over all that are ready. One product more than threads, so that nobody waits for a
   // slow neighbour.
-  std::vector<Item> items(static_cast<std::size_t>(threads) + 1);
-  std::vector<Item*> idle;
+  std::vector<Job> items(static_cast<std::size_t>(threads) + 1);
+  std::vector<Job*> idle;
   idle.reserve(items.size());
   for (auto& item : items) idle.push_back(&item);
-  std::map<std::size_t, Item*> ready;
+  std::map<std::size_t, Job*> ready;
   std::mutex mutex;
   std::condition_variable delivered;
   std::size_t next = first, turn = first;
@@ -65,10 +77,10 @@ void for_each_product(const RunSetup& setup, const readers::Series& series, std:
       delivered.wait(lock, [&] { return !idle.empty() || next == last || failure; });
       if (next == last || failure) return;
       const std::size_t i = next++;
-      Item* const item = idle.back();
+      Job* const item = idle.back();
       idle.pop_back();
       lock.unlock();
-      make_item(setup, series, i, *item);
+      make_job(i, *item);
       lock.lock();
       ready[i] = item;
       try {
@@ -89,6 +101,20 @@ void for_each_product(const RunSetup& setup, const readers::Series& series, std:
     for (int k = 0; k < threads; ++k) team.emplace_back(work);
   }
   if (failure) std::rethrow_exception(failure);
+}
+
+/// Computes the products of snapshots [first, last) and their checks against the gas.
+template <class Take>
+void for_each_product(const RunSetup& setup, const readers::Series& series, const GasRun* gas,
+                      std::size_t first, std::size_t last, int threads, Take&& take) {
+  const auto matched = gas == nullptr ? std::vector<std::size_t>{} : gas->unchecked();
+  const auto make = [&](std::size_t i, Item& item) {
+    make_product(setup, series, i, item.product, item.scratch);
+    item.check.reset();
+    if (!std::binary_search(matched.begin(), matched.end(), i)) return;
+    gas->make_check(item.product, item.check.emplace(), item.gas_scratch);
+  };
+  for_each_in_order<Item>(first, last, threads, make, take);
 }
 
 bool same_steps(const readers::Series& a, const readers::Series& b) {
@@ -146,6 +172,8 @@ struct LiveAnalysis::State {
   std::optional<readers::Series> series;
   std::unique_ptr<RunSetup> setup;  // RunSums keep a pointer to it
   std::optional<RunSums> sums;      // of the snapshots whose weights are final: all but the last
+  std::optional<GasRun> gas;
+  std::vector<std::string> gas_times;  // their names, as last seen
   RunResult result;
   double seconds = 0;
   bool live = true;  // update() will be called again
@@ -155,6 +183,20 @@ struct LiveAnalysis::State {
   void begin() {
     setup = std::make_unique<RunSetup>(set_up(settings, *series));
     sums.emplace(*setup, is_auto(), options.pictures);
+    gas.reset();
+  }
+
+  /// The gas as it is on disk now, if the run has any.
+  std::optional<readers::GasSeries> open_gas() const {
+    if (settings.gas.path.empty()) return std::nullopt;
+    return readers::GasSeries::open(settings.gas.path, settings.gas.options);
+  }
+
+  static std::vector<std::string> names_of(const std::optional<readers::GasSeries>& series) {
+    std::vector<std::string> names;
+    if (series)
+      for (const auto& time : series->times()) names.push_back(time.name);
+    return names;
   }
 
   /// Whether the snapshots that were added are still the first ones of the series; one that came
@@ -168,15 +210,23 @@ struct LiveAnalysis::State {
 
   bool update() {
     const auto started = std::chrono::steady_clock::now();
-    auto found = readers::Series::open(settings.particles, {settings.repeated});
+    auto found = readers::Series::open(
+        settings.particles,
+        {.repeated = settings.repeated, .columns = settings.columns, .names_needed = true});
+    auto gas_found = open_gas();
     const bool first_time = !series.has_value();
-    if (!first_time && same_steps(found, *series)) return false;
+    if (!first_time && same_steps(found, *series) && names_of(gas_found) == gas_times) return false;
     const bool goes_on = !first_time && continues(found);
     series.emplace(std::move(found));
     if (goes_on)
       update_times(*setup, *series);
     else
       begin();
+    gas_times = names_of(gas_found);
+    if (gas_found) {
+      if (!gas) gas.emplace(*setup);
+      gas->set_series(std::move(*gas_found));
+    }
     if (is_auto() && !evenly_spaced(setup->times)) {
       uneven_auto();
     } else {
@@ -188,6 +238,8 @@ struct LiveAnalysis::State {
     }
     result.label = settings.label;
     result.inputs = series->files();
+    add_fluctuations(*setup, result);
+    if (gas) add_gas();
     if (options.pictures) keep_frames(*setup, *series, result);
     seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
     result.seconds = seconds;
@@ -199,8 +251,10 @@ struct LiveAnalysis::State {
   RunSums add_all(const std::vector<double>& weights) {
     const std::size_t all = series->size();
     std::optional<RunSums> complete;
-    for_each_product(*setup, *series, sums->snapshots(), all, threads(),
-                     [&](SnapshotProduct& product) {
+    for_each_product(*setup, *series, gas_run(), sums->snapshots(), all, threads(),
+                     [&](Item& item) {
+                       auto& product = item.product;
+                       if (item.check) gas->add_check(*item.check);
                        const auto i = product.snapshot;
                        if (i + 1 == all) {
                          if (live)
@@ -212,6 +266,29 @@ struct LiveAnalysis::State {
                        if (options.progress) options.progress(i + 1, all);
                      });
     return std::move(*complete);
+  }
+
+  const GasRun* gas_run() const { return gas ? &*gas : nullptr; }
+
+  /// The gas over the window of the particles, and what its times came too late for.
+  void add_gas() {
+    const auto late = gas->unchecked();
+    for_each_in_order<Item>(
+        0, late.size(), threads(),
+        [&](std::size_t k, Item& item) {
+          make_product(*setup, *series, late[k], item.product, item.scratch);
+          gas->make_check(item.product, item.check.emplace(), item.gas_scratch);
+        },
+        [&](Item& item) { gas->add_check(*item.check); });
+    gas->begin_window(result.window);
+    const auto times = gas->todo();
+    for_each_in_order<GasItem>(
+        0, times.size(), threads(),
+        [&](std::size_t k, GasItem& item) {
+          gas->make_product(times[k], item.product, item.scratch);
+        },
+        [&](GasItem& item) { gas->add_product(item.product); });
+    gas->finish(*series, result);
   }
 
   /// With uneven spacing the weight of a snapshot depends on where the window begins, so the run is

@@ -18,14 +18,18 @@ namespace {
 /// sums are exact and the central moments do not cancel, however far up the bed the region is.
 struct Region {
   int first_i = 0, first_k = 0;
+  int left = 0, right = 0, top = 0;  ///< outermost columns, highest row
   std::int64_t cells = 0, i = 0, k = 0, ii = 0, ik = 0, kk = 0;
   double holdup = 0, holdup_max = 0, mass = 0, mass_vx = 0, mass_vz = 0;
 
   void add(int column, int row) {
     if (cells++ == 0) {
-      first_i = column;
+      first_i = left = right = column;
       first_k = row;
     }
+    left = std::min(left, column);
+    right = std::max(right, column);
+    top = std::max(top, row);
     const std::int64_t a = column - first_i, b = row - first_k;
     i += a;
     k += b;
@@ -91,6 +95,8 @@ Cluster measure(const Grid& grid, const Region& region) {
   cluster.velocity_x = region.mass_vx / region.mass;
   cluster.velocity_z = region.mass_vz / region.mass;
   cluster.track_velocity_x = cluster.track_velocity_z = nan;
+  cluster.at_wall =
+      region.left == 0 || region.right + 1 == grid.cells[lateral] || region.first_k == 0;
   set_ellipse(region, width_x, width_z, cluster);
   return cluster;
 }
@@ -135,14 +141,16 @@ std::vector<Point> trace(const Grid& grid, const std::vector<int>& labels, int i
   return outline;
 }
 
-/// The labels of the regions that are clusters, from the bottom upwards.
+/// The labels of the regions that are clusters, from the bottom upwards; wanted(region) has a say.
+template <class Wanted>
 std::vector<std::size_t> select_clusters(const Grid& grid, const std::vector<Region>& regions,
-                                         const ClusterThresholds& thresholds) {
+                                         const ClusterThresholds& thresholds, Wanted&& wanted) {
   const double cell_area = grid.width(lateral) * grid.width(up);
   std::vector<std::size_t> kept;
   for (std::size_t label = 1; label < regions.size(); ++label)
     if (regions[label].holdup_max > thresholds.core &&
-        static_cast<double>(regions[label].cells) * cell_area >= thresholds.min_area * (1 - 1e-9))
+        static_cast<double>(regions[label].cells) * cell_area >= thresholds.min_area * (1 - 1e-9) &&
+        wanted(regions[label]))
       kept.push_back(label);
   std::sort(kept.begin(), kept.end(), [&regions](std::size_t a, std::size_t b) {
     const auto order = [](const Region& region) {
@@ -167,37 +175,32 @@ void add_contours(const Grid& grid, const std::vector<std::size_t>& dense, Clust
   }
 }
 
-}  // namespace
-
-ClusterImage find_clusters(const Grid& grid, std::span<const double> holdup,
-                           std::span<const double> mass, std::span<const double> mass_vx,
-                           std::span<const double> mass_vz, const ClusterThresholds& thresholds) {
+/// Clusters of any field: add(region, cell) may sum up what else is wanted of their cells.
+template <class Wanted, class Add>
+ClusterImage find_regions(const Grid& grid, std::span<const double> field,
+                          const ClusterThresholds& thresholds, Wanted&& wanted, Add&& add) {
   const auto columns = static_cast<std::size_t>(grid.cells[lateral]);
-  assert(holdup.size() == columns * static_cast<std::size_t>(grid.cells[up]));
-  assert(mass.size() == holdup.size() && mass_vx.size() == holdup.size() &&
-         mass_vz.size() == holdup.size());
+  assert(field.size() == columns * static_cast<std::size_t>(grid.cells[up]));
   ClusterImage image;
-  image.labels.assign(holdup.size(), 0);
+  image.labels.assign(field.size(), 0);
   const double peak = std::max(thresholds.core, thresholds.threshold);
-  if (std::none_of(holdup.begin(), holdup.end(), [peak](double phi) { return phi > peak; }))
+  if (std::none_of(field.begin(), field.end(), [peak](double value) { return value > peak; }))
     return image;
 
-  const int count = label_regions(grid, holdup, thresholds.threshold, image.labels);
+  const int count = label_regions(grid, field, thresholds.threshold, image.labels);
   std::vector<Region> regions(static_cast<std::size_t>(count));
   std::vector<std::size_t> dense;  // the labelled cells: few, so that later passes are short
-  for (std::size_t cell = 0; cell < holdup.size(); ++cell) {
+  for (std::size_t cell = 0; cell < field.size(); ++cell) {
     if (image.labels[cell] == 0) continue;
     dense.push_back(cell);
     Region& region = regions[static_cast<std::size_t>(image.labels[cell])];
     region.add(static_cast<int>(cell % columns), static_cast<int>(cell / columns));
-    region.holdup += holdup[cell];
-    region.holdup_max = std::max(region.holdup_max, holdup[cell]);
-    region.mass += mass[cell];
-    region.mass_vx += mass_vx[cell];
-    region.mass_vz += mass_vz[cell];
+    region.holdup += field[cell];
+    region.holdup_max = std::max(region.holdup_max, field[cell]);
+    add(region, cell);
   }
 
-  const auto kept = select_clusters(grid, regions, thresholds);
+  const auto kept = select_clusters(grid, regions, thresholds, wanted);
   std::vector<int> numbers(regions.size(), 0);
   for (const std::size_t label : kept) {
     image.clusters.push_back(measure(grid, regions[label]));
@@ -207,6 +210,30 @@ ClusterImage find_clusters(const Grid& grid, std::span<const double> holdup,
     image.labels[cell] = numbers[static_cast<std::size_t>(image.labels[cell])];
   add_contours(grid, dense, image);
   return image;
+}
+
+}  // namespace
+
+ClusterImage find_clusters(const Grid& grid, std::span<const double> holdup,
+                           std::span<const double> mass, std::span<const double> mass_vx,
+                           std::span<const double> mass_vz, const ClusterThresholds& thresholds) {
+  assert(mass.size() == holdup.size() && mass_vx.size() == holdup.size() &&
+         mass_vz.size() == holdup.size());
+  return find_regions(
+      grid, holdup, thresholds, [](const Region&) { return true; },
+      [&](Region& region, std::size_t cell) {
+        region.mass += mass[cell];
+        region.mass_vx += mass_vx[cell];
+        region.mass_vz += mass_vz[cell];
+      });
+}
+
+ClusterImage find_bubbles(const Grid& grid, std::span<const double> voidage, double surface,
+                          const ClusterThresholds& thresholds) {
+  const auto below_surface = [&](const Region& region) {
+    return region.top + 1 < grid.cells[up] && (region.mean_k() + 0.5) * grid.width(up) < surface;
+  };
+  return find_regions(grid, voidage, thresholds, below_surface, [](Region&, std::size_t) {});
 }
 
 }  // namespace bedscope::analysis

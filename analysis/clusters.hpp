@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Clusters of one snapshot on the depth-averaged grid.
+// Clusters and bubbles of one snapshot on the depth-averaged grid.
 #pragma once
 
 #include <span>
 #include <vector>
 
-#include "analysis/result.hpp"
+#include "analysis/cluster_result.hpp"
+#include "analysis/grid.hpp"
 
 namespace bedscope::analysis {
 
@@ -28,12 +29,19 @@ struct ClusterImage {
 /// snapshot and time are the caller's to set, track, track velocity and parents the Tracker's.
 ///
 /// `mass` is rho phi in any unit; where all particles have one density the holdup itself will do.
-/// Regions are not joined across a periodic seam. Bubbles: give the voidage in place of holdup.
+/// Regions are not joined across a periodic seam.
 /// Source of the three thresholds: Carlos Varas et al. (2016).
 /// Shape: cells[lateral] x cells[up], lateral fastest, whatever cells[depth]. Units: [-] and [m/s].
 /// Thread-safe; turns OpenCV's own threads off for the process.
 ClusterImage find_clusters(const Grid& grid, std::span<const double> holdup,
                            std::span<const double> mass, std::span<const double> mass_vx,
                            std::span<const double> mass_vz, const ClusterThresholds& thresholds);
+
+/// The bubbles of one snapshot: the same regions of the voidage, 1 - holdup, less the freeboard.
+/// What reaches the top row of cells is freeboard, and so is what has its centroid above `surface`
+/// [m above the floor] (all, where that is NaN). So a bubble counts until the voidage above it
+/// opens. Velocities of solids are NaN.
+ClusterImage find_bubbles(const Grid& grid, std::span<const double> voidage, double surface,
+                          const ClusterThresholds& thresholds);
 
 }  // namespace bedscope::analysis

@@ -43,4 +43,10 @@ void write_file(const std::filesystem::path& path, std::string_view content) {
   output.commit();
 }
 
+void remove_file(const std::filesystem::path& path) {
+  std::error_code error;
+  std::filesystem::remove(path, error);
+  if (error) throw FileError("{}: {}", path.string(), error.message());
+}
+
 }  // namespace bedscope::analysis

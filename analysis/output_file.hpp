@@ -11,6 +11,10 @@ namespace bedscope::analysis {
 /// Throws FileError naming path and reason; nothing half-written stays.
 void write_file(const std::filesystem::path& path, std::string_view content);
 
+/// Removes a result of an earlier analysis, which would now be taken for one of this; there may be
+/// none. Throws FileError.
+void remove_file(const std::filesystem::path& path);
+
 /// A name beside `path` to write to (for libraries that write files themselves), renamed by
 /// commit(); removed again where commit() was not reached.
 class OutputFile {

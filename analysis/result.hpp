@@ -5,18 +5,17 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "analysis/bed_result.hpp"
+#include "analysis/cluster_result.hpp"
+#include "analysis/estimate.hpp"
+#include "analysis/gas_result.hpp"
 #include "analysis/grid.hpp"
 
 namespace bedscope::analysis {
-
-/// A mean and the half-width of its 95 % confidence interval, in the unit of the quantity.
-struct Estimate {
-  double value = std::numeric_limits<double>::quiet_NaN();
-  double ci95 = std::numeric_limits<double>::quiet_NaN();
-};
 
 /// A time-averaged curve: holdup [-], solids velocity along `up` [m/s], mass flux [kg/m2/s] at
 /// `coordinate` (cell centres [m]); all vectors of one length.
@@ -64,28 +63,6 @@ struct OccurrenceSample {
   double area_fraction = 0;  ///< of the domain's front area [-]
 };
 
-struct Point {
-  double x = 0, z = 0;  ///< lateral, up [m]
-};
-
-/// A cluster in one snapshot (Carlos Varas et al. 2016 in its three thresholds).
-struct Cluster {
-  std::size_t snapshot = 0;  ///< index into RunResult::occurrence
-  double time = 0;           ///< [s]
-  int cluster = 0;           ///< number within the snapshot, from 1, from the bottom upwards
-  int track = 0;             ///< the same number through time, from 1
-  Point centre;              ///< centroid of its area [m]
-  double area = 0;           ///< cells x cell area [m2]
-  double holdup = 0, holdup_max = 0;
-  double velocity_x = 0, velocity_z = 0;              ///< of its solids, mass-weighted [m/s]
-  double track_velocity_x = 0, track_velocity_z = 0;  ///< of its centroid [m/s]; NaN at first sight
-  double major = 0, minor = 0;  ///< full axes of the ellipse of equal second moments [m]
-  double angle = 0;             ///< of the major axis from lateral [rad], (-pi/2, pi/2]
-  std::vector<int>
-      parents;  ///< tracks of the previous snapshot that merged into it or that it split off
-  std::vector<std::vector<Point>> contours;  ///< closed polylines along cell faces [m]
-};
-
 /// One snapshot kept whole for the strip of snapshots.
 struct Frame {
   std::size_t snapshot = 0;    ///< index into RunResult::occurrence
@@ -100,13 +77,6 @@ struct Window {
   std::size_t snapshots = 0;
   bool automatic = false;  ///< chosen by `average = "auto"`
   bool steady = true;      ///< false where `auto` found no steady part
-};
-
-/// The thresholds that found the clusters.
-struct ClusterThresholds {
-  double threshold = 0.2;   ///< holdup everywhere above [-]
-  double core = 0.4;        ///< holdup somewhere above [-]
-  double min_area = 60e-6;  ///< [m2]
 };
 
 struct RunResult {
@@ -129,7 +99,12 @@ struct RunResult {
   ClusterThresholds thresholds;
   std::vector<OccurrenceSample> occurrence;  ///< every snapshot
   std::vector<Cluster> clusters;             ///< inside the window, by snapshot
-  std::vector<Frame> frames;                 ///< a few snapshots of the window, evenly spread
+  BedHeight bed;
+  std::optional<Bubbles> bubbles;         ///< where the study asks for them
+  std::vector<Fluctuation> fluctuations;  ///< of the signals that the study asks for
+  std::vector<Frame> frames;              ///< a few snapshots of the window, evenly spread
+
+  GasResult gas;
 
   Estimate mean_holdup;      ///< of the domain, over the window [-]
   Estimate inventory_mass;   ///< over the window [kg]

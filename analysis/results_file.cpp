@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "analysis/bed_tables.hpp"
+#include "analysis/gas_results_file.hpp"
 #include "analysis/hdf5_file.hpp"
 #include "readers/error.hpp"
 
@@ -168,11 +170,11 @@ void write_series(Hdf5Group& group, const RunResult& run) {
   temperature.write("max", numbers(run.temperature, &TemperatureSample::max), "K");
 }
 
-void write_clusters(Hdf5Group group, const RunResult& run) {
-  const std::vector<Cluster>& rows = run.clusters;
-  group.attribute("threshold", run.thresholds.threshold);
-  group.attribute("core", run.thresholds.core);
-  group.attribute("min_area", run.thresholds.min_area);
+void write_clusters(Hdf5Group group, const RunResult& run, const std::vector<Cluster>& rows,
+                    const ClusterThresholds& thresholds) {
+  group.attribute("threshold", thresholds.threshold);
+  group.attribute("core", thresholds.core);
+  group.attribute("min_area", thresholds.min_area);
   group.write("snapshot", wholes(rows, &Cluster::snapshot));
   group.write("time", times(run, rows), "s");
   group.write("cluster", wholes(rows, &Cluster::cluster));
@@ -199,11 +201,11 @@ void write_clusters(Hdf5Group group, const RunResult& run) {
   group.write("parents_begin", begin);
 }
 
-void write_contours(Hdf5Group group, const RunResult& run) {
+void write_contours(Hdf5Group group, const std::vector<Cluster>& clusters) {
   std::vector<double> points;
   std::vector<std::int64_t> begin{0}, owner;
-  for (std::size_t c = 0; c < run.clusters.size(); ++c)
-    for (const std::vector<Point>& contour : run.clusters[c].contours) {
+  for (std::size_t c = 0; c < clusters.size(); ++c)
+    for (const std::vector<Point>& contour : clusters[c].contours) {
       for (const Point& point : contour) points.insert(points.end(), {point.x, point.z});
       begin.push_back(static_cast<std::int64_t>(points.size() / 2));
       owner.push_back(static_cast<std::int64_t>(c));
@@ -237,9 +239,15 @@ void write_run(Hdf5Group group, const RunResult& run) {
     write_species(all_species.group(name), run, species);
   }
   write_series(group, run);
-  write_clusters(group.group("clusters"), run);
-  write_contours(group.group("contours"), run);
+  write_clusters(group.group("clusters"), run, run.clusters, run.thresholds);
+  write_contours(group.group("contours"), run.clusters);
+  if (run.bubbles) {
+    write_clusters(group.group("bubbles"), run, run.bubbles->bubbles, run.bubbles->thresholds);
+    write_contours(group.group("bubble_contours"), run.bubbles->bubbles);
+  }
+  write_bed_groups(group, run);
   write_frames(group.group("frames"), run);
+  if (run.gas.present) write_gas_group(group.group("gas"), run, field_shape(run.grid));
 }
 
 // The points of the image along an axis, see write_results_file.
@@ -280,19 +288,22 @@ void write_image(Hdf5Group group, std::span<const RunResult> runs,
 
   Hdf5Group data = group.group("PointData");
   std::vector<std::string> taken;
-  for (const std::size_t member : members)
+  for (const std::size_t member : members) {
+    const auto write = [&](std::string name, const std::vector<double>& values, const char* unit) {
+      if (values.size() != grid.size()) return;
+      if (runs.size() > 1) name += " [" + runs[member].label + "]";
+      name = hdf5_name(name);
+      while (std::find(taken.begin(), taken.end(), name) != taken.end()) name += '_';
+      taken.push_back(name);
+      data.write(name, image_values(grid, values), unit, shape);
+    };
     for (const SpeciesResult& species : runs[member].species)
-      for (const Field& field : all_fields) {
-        const std::vector<double>& values = species.fields.*field.values;
-        if (values.size() != grid.size()) continue;
-        std::string name = field.name;
-        if (species.type != "all") name += " of " + species.type;
-        if (runs.size() > 1) name += " [" + runs[member].label + "]";
-        name = hdf5_name(name);
-        while (std::find(taken.begin(), taken.end(), name) != taken.end()) name += '_';
-        taken.push_back(name);
-        data.write(name, image_values(grid, values), field.unit, shape);
-      }
+      for (const Field& field : all_fields)
+        write(species.type == "all" ? field.name : field.name + (" of " + species.type),
+              species.fields.*field.values, field.unit);
+    for (const GasField& field : all_gas_fields)
+      write(field.name, runs[member].gas.fields.*field.values, field.unit);
+  }
 }
 
 // The runs that have fields, those on one grid together, in the order of their first.

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
 #include <set>
 
@@ -212,20 +211,33 @@ void RunSums::pdf_of(const Species& species, const Window& window, SpeciesResult
   result.temperature_pdf = std::move(density);
 }
 
-void RunSums::clusters_of(const Window& window, RunResult& result) {
-  std::map<int, int> numbers;  // tracks are counted from 1 inside the window
-  for (const auto& cluster : clusters_) {
-    if (cluster.snapshot < window.first) continue;
-    numbers.try_emplace(cluster.track, static_cast<int>(numbers.size()) + 1);
+void RunSums::bed_of(const Window& window, RunResult& result) const {
+  auto& bed = result.bed;
+  bed.asked = setup_->settings.bed;
+  const double floor = setup_->grid.min[up];
+  std::vector<double> weights, centres, surfaces;
+  for (const auto& row : result.inventory) {
+    if (row.type != "all") continue;
+    const auto& sample = samples_[bed.samples.size()];
+    // A level bed of height H has its centre at H/2.
+    bed.samples.push_back({row.time, 2 * (row.mean_height - floor), sample.bed.by_solids,
+                           sample.bed.surface, undefined});
   }
-  result.clusters = std::move(clusters_);
-  std::erase_if(result.clusters,
-                [&](const Cluster& cluster) { return cluster.snapshot < window.first; });
-  for (auto& cluster : result.clusters) {
-    cluster.track = numbers.at(cluster.track);
-    std::erase_if(cluster.parents, [&](int parent) { return !numbers.contains(parent); });
-    for (int& parent : cluster.parents) parent = numbers.at(parent);
+  const auto solids = std::find_if(bed.samples.begin(), bed.samples.end(), [](const auto& sample) {
+    return std::isfinite(sample.by_centre);
+  });
+  bed.at_rest = setup_->settings.height_at_rest.value_or(
+      solids != bed.samples.end() ? solids->by_centre : undefined);
+  for (auto& sample : bed.samples) sample.expansion = sample.by_centre / bed.at_rest;
+  for (std::size_t i = window.first; i < window.first + window.snapshots; ++i) {
+    if (!std::isfinite(bed.samples[i].by_centre + bed.samples[i].surface)) continue;  // empty
+    weights.push_back(samples_[i].weight);
+    centres.push_back(bed.samples[i].by_centre);
+    surfaces.push_back(bed.samples[i].surface);
   }
+  bed.by_centre = estimate_mean(centres, weights).estimate();
+  bed.surface = estimate_mean(surfaces, weights).estimate();
+  bed.expansion = {bed.by_centre.value / bed.at_rest, bed.by_centre.ci95 / bed.at_rest};
 }
 
 void RunSums::means_of(const Window& window, RunResult& result) const {
@@ -326,7 +338,11 @@ RunResult RunSums::finish(const readers::Series& series, const Window& window) &
     result.species.push_back(std::move(found));
   }
   result.occurrence = occurrence_;
-  clusters_of(window, result);
+  result.clusters = std::move(clusters_);
+  keep_from(result.clusters, window.first);
+  if (setup.settings.bubbles)
+    result.bubbles = std::move(bubbles_).finish(setup, window.first, result.problems);
+  bed_of(window, result);
   means_of(window, result);
   if (window.automatic && !window.steady)
     result.problems.push_back(

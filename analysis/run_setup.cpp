@@ -33,7 +33,7 @@ class FirstRows {
   const std::vector<double>& column(std::size_t k) {
     if (snapshot_.columns.empty()) {
       std::size_t first = 0;
-      while (first + 1 < series_.size() && series_.located(first).particles == 0) ++first;
+      while (first + 1 < series_.size() && series_.particles(first) == 0) ++first;
       readers::Scratch scratch;
       series_.read(first, {{"x"}, {"y"}, {"z"}, {"radius", false}, {"type", false}}, snapshot_,
                    scratch);
@@ -46,8 +46,8 @@ class FirstRows {
   readers::Snapshot snapshot_;
 };
 
-void find_time_step(const readers::LiggghtsLog& log, bool times_in_dumps, RunSetup& setup) {
-  if (times_in_dumps) {
+void find_time_step(const readers::LiggghtsLog& log, bool has_steps, RunSetup& setup) {
+  if (!has_steps) {
     if (setup.settings.time_step)
       setup.problems.emplace_back("time_step is not used: the snapshots tell their times");
     return;
@@ -214,6 +214,24 @@ readers::ColumnRequest density_column(const RunSetup& setup) {
   }
 }
 
+/// How much of each layer of cells belongs to the band around a height; their sum is 1.
+std::vector<double> layer_weights(const RunSetup& setup, double height, double band) {
+  const auto& grid = setup.grid;
+  std::vector<double> weights(static_cast<std::size_t>(grid.cells[up]));
+  double sum = 0;
+  for (int k = 0; k < grid.cells[up]; ++k) {
+    const double overlap = std::min(grid.face(up, k + 1), height + band / 2) -
+                           std::max(grid.face(up, k), height - band / 2);
+    weights[static_cast<std::size_t>(k)] = std::max(overlap, 0.);
+    sum += std::max(overlap, 0.);
+  }
+  if (!(sum > 0))
+    throw InputError("run \"{}\": heights: {} m lies outside the domain ({} to {} m)",
+                     setup.settings.label, height, grid.min[up], grid.max[up]);
+  for (auto& weight : weights) weight /= sum;
+  return weights;
+}
+
 void set_heights(RunSetup& setup) {
   const auto& settings = setup.settings;
   const auto& grid = setup.grid;
@@ -222,21 +240,29 @@ void set_heights(RunSetup& setup) {
     for (const double part : {0.25, 0.5, 0.75})
       setup.heights.push_back(grid.min[up] + part * grid.length(up));
   setup.band = settings.band > 0 ? settings.band : 2 * grid.width(up);
-  for (const double height : setup.heights) {
-    std::vector<double> weights(static_cast<std::size_t>(grid.cells[up]));
-    double sum = 0;
-    for (int k = 0; k < grid.cells[up]; ++k) {
-      const double overlap = std::min(grid.face(up, k + 1), height + setup.band / 2) -
-                             std::max(grid.face(up, k), height - setup.band / 2);
-      weights[static_cast<std::size_t>(k)] = std::max(overlap, 0.);
-      sum += std::max(overlap, 0.);
-    }
-    if (!(sum > 0))
-      throw InputError("run \"{}\": heights: {} m lies outside the domain ({} to {} m)",
-                       settings.label, height, grid.min[up], grid.max[up]);
-    for (auto& weight : weights) weight /= sum;
-    setup.band_weights.push_back(std::move(weights));
+  for (const double height : setup.heights)
+    setup.band_weights.push_back(layer_weights(setup, height, setup.band));
+}
+
+/// Bands around the study's heights, else 20 (or a layer each) that fill the domain; and what the
+/// study leaves open of the thresholds.
+void set_bubbles(RunSetup& setup) {
+  auto& wanted = setup.settings.bubbles;
+  if (!wanted) return;
+  constexpr int most_bands = 20;
+  constexpr double least_cells = 4;  // a smaller void is a gap between particles
+  const auto& grid = setup.grid;
+  if (!(wanted->min_area > 0))
+    wanted->min_area = least_cells * grid.width(lateral) * grid.width(up);
+  std::vector<double> heights = setup.settings.heights;
+  double width = setup.band;
+  if (heights.empty()) {
+    const int bands = std::min(grid.cells[up], most_bands);
+    width = grid.length(up) / bands;
+    for (int b = 0; b < bands; ++b) heights.push_back(grid.min[up] + (b + 0.5) * width);
   }
+  for (const double height : heights)
+    setup.bubble_bands.push_back({height, width, layer_weights(setup, height, width)});
 }
 
 /// Times on disk are sums of steps: 0.3 s may be written 0.29999999999999998 [s].
@@ -251,12 +277,7 @@ double rounding_of(const std::vector<double>& times) {
 void update_times(RunSetup& setup, const readers::Series& series) {
   const auto& settings = setup.settings;
   setup.times.clear();
-  if (series.form().stores_times) {  // and no steps, so that a time step says nothing
-    for (std::size_t i = 0; i < series.size(); ++i) setup.times.push_back(series.time(i));
-    setup.half_step = rounding_of(setup.times);
-    return;
-  }
-  if (setup.time_step) {
+  if (setup.time_step && series.has_steps()) {
     for (std::size_t i = 0; i < series.size(); ++i)
       setup.times.push_back(static_cast<double>(series.step(i) - settings.step_zero) *
                             *setup.time_step);
@@ -265,7 +286,10 @@ void update_times(RunSetup& setup, const readers::Series& series) {
   }
   for (std::size_t i = 0; i < series.size() && !std::isnan(series.time(i)); ++i)
     setup.times.push_back(series.time(i));  // some forms store it
-  if (setup.times.size() == series.size()) return;
+  if (setup.times.size() == series.size()) {
+    setup.half_step = rounding_of(setup.times);
+    return;
+  }
   if (settings.time_required)
     throw InputError(
         "run \"{}\": time_step is missing: no log.liggghts beside the dumps tells it; expected "
@@ -286,7 +310,7 @@ RunSetup set_up(const RunSettings& settings, const readers::Series& series) {
   RunSetup setup;
   setup.settings = settings;
   const auto log = readers::find_log(series.path(0));
-  find_time_step(log, series.form().stores_times, setup);
+  find_time_step(log, series.has_steps(), setup);
   update_times(setup, series);
 
   const bool empty = series.parts().empty();  // not one particle in all dumps, and no columns
@@ -301,6 +325,7 @@ RunSetup set_up(const RunSettings& settings, const readers::Series& series) {
   set_cells(first, setup);
   set_density(series, log, setup);
   set_heights(setup);
+  set_bubbles(setup);
   setup.kernel = make_kernel(settings.mapping, setup.grid);
 
   const auto axes = bed_axes(settings);

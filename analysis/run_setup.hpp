@@ -27,6 +27,12 @@ enum Column : std::size_t {
   column_first_rule
 };
 
+/// A band of heights over the whole cross-section.
+struct Band {
+  double height = 0, width = 0;  ///< its middle and its full height [m]
+  std::vector<double> weights;   ///< the share of each layer of cells, sum 1
+};
+
 /// All that is constant while the snapshots of a run are read.
 struct RunSetup {
   RunSettings settings;
@@ -50,7 +56,8 @@ struct RunSetup {
   std::vector<double> heights;
   double band = 0;
   std::vector<std::vector<double>>
-      band_weights;  ///< a height: the share of each layer of cells, sum 1
+      band_weights;                ///< a height: the share of each layer of cells, sum 1
+  std::vector<Band> bubble_bands;  ///< where the study asks for bubbles
   std::vector<std::string> problems;
 };
 

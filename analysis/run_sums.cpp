@@ -25,7 +25,8 @@ RunSums::RunSums(const RunSetup& setup, bool keep_blocks, bool keep_contours)
       fields_(block_power, keep_blocks ? kept_blocks : 0),
       profiles_(0, kept_leaves),
       histograms_(block_power, keep_blocks ? kept_blocks : 0),
-      tracker_(setup.grid) {}
+      tracker_(setup.grid),
+      bubbles_(setup.grid) {}
 
 std::size_t RunSums::slot_number(SlotKey key) {
   const auto found = std::find(slots_.begin(), slots_.end(), key);
@@ -42,6 +43,7 @@ void RunSums::add(SnapshotProduct& product, double weight) {
   sample.volume_inside = product.volume_inside;
   sample.temperature_zero = product.temperature_zero;
   sample.weight = weight;
+  sample.bed = product.bed;
   if (weight > 0) {
     fields_.at(i).weight += weight;
     profiles_.at(i).weight += weight;
@@ -76,6 +78,9 @@ void RunSums::add(SnapshotProduct& product, double weight) {
         cluster.velocity_x = cluster.velocity_z = undefined;
     std::move(product.image.clusters.begin(), product.image.clusters.end(),
               std::back_inserter(clusters_));
+    if (setup_->settings.bubbles)
+      bubbles_.add(product.bubbles, i, setup_->time_known ? time : undefined, weight,
+                   keep_contours_);
   }
   flaws_.merge(product.flaws);
   without_temperature_ += product.without_temperature;

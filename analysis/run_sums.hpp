@@ -42,6 +42,7 @@ class RunSums {
     std::vector<SlotSample> slots;  // by number of the slot; later ones are zero
     double volume = 0, volume_inside = 0, temperature_zero = 0;
     double weight = 0;
+    BedHeights bed;
   };
   /// A name, and the slots whose sum it is.
   struct Species {
@@ -58,7 +59,7 @@ class RunSums {
                    std::vector<std::string>& doubts) const;
   void fields_of(const Species& species, const WeightedSum& sum, SpeciesResult& result) const;
   void pdf_of(const Species& species, const Window& window, SpeciesResult& result) const;
-  void clusters_of(const Window& window, RunResult& result);
+  void bed_of(const Window& window, RunResult& result) const;
   void means_of(const Window& window, RunResult& result) const;
 
   const RunSetup* setup_;
@@ -69,6 +70,7 @@ class RunSums {
   std::vector<OccurrenceSample> occurrence_;
   std::vector<Cluster> clusters_;
   Tracker tracker_;
+  BubbleSums bubbles_;
   readers::Flaws flaws_;
   std::int64_t without_temperature_ = 0;
   std::uint64_t bytes_read_ = 0;

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/gas_settings.hpp"
 #include "analysis/result.hpp"
 #include "readers/series.hpp"
 
@@ -58,8 +59,9 @@ struct RunSettings {
   std::string label;
   std::string particles;  ///< file, folder or pattern
   readers::Repeated repeated = readers::Repeated::refuse;
-  std::optional<double> time_step;  ///< [s]; else from log.liggghts beside the dumps
-  bool time_required = true;        ///< false: without a time step go on, counting steps
+  std::vector<std::string> columns;  ///< their names, for dumps that store none
+  std::optional<double> time_step;   ///< [s]; else from log.liggghts beside the dumps
+  bool time_required = true;         ///< false: without a time step go on, counting steps
   std::int64_t step_zero = 0;
 
   std::optional<std::array<std::array<double, 3>, 2>>
@@ -77,9 +79,16 @@ struct RunSettings {
   std::vector<double> heights;  ///< [m]; empty: quarters of the domain
   double band = 0;              ///< [m]; 0: two cells
   ClusterThresholds clusters;
+  std::optional<ClusterThresholds> bubbles;  ///< of the voidage; min_area 0: four cells
+  bool bed = false;                          ///< asked for: [bed] or [bubbles]
+  std::optional<double> height_at_rest;      ///< [m] above the floor; else the first snapshot's
+  bool spectra = false;
+  std::optional<double> segment;  ///< of a spectrum [s]
+  std::string probes;             ///< pressure probes of OpenFOAM: a folder or a file
   std::string temperature_column = "temperature";
   std::optional<std::array<double, 2>> temperature;  ///< made 0 and 1 in the PDF [K]
   int temperature_bins = 25;
+  GasSettings gas;
 };
 
 }  // namespace bedscope::analysis

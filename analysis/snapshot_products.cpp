@@ -267,6 +267,15 @@ void reduce(const RunSetup& setup, SnapshotProduct& out, ProductScratch& scratch
   }
 }
 
+/// Of all solids in each layer of cells.
+std::vector<double> layer_holdups(const Grid& grid, const SnapshotProduct& product) {
+  std::vector<double> layers(static_cast<std::size_t>(grid.cells[up]), 0);
+  for (std::size_t s = 0; s < product.used; ++s)
+    for (std::size_t k = 0; k < layers.size() && product.slots[s].key.rule < 0; ++k)
+      layers[k] += product.slots[s].profiles[2 * k];
+  return layers;
+}
+
 /// Doubled ids are a flaw of the whole series (pieces counted twice), so a sample shows them; the
 /// column is not read for the others.
 bool ids_wanted(std::size_t i, std::size_t snapshots) {
@@ -283,7 +292,6 @@ void make_product(const RunSetup& setup, const readers::Series& series, std::siz
   out.volume = out.volume_inside = 0;
   out.without_temperature = 0;
   out.flaws = {};
-  out.error = nullptr;
   series.read(i, ids_wanted(i, series.size()) ? setup.request : setup.request_without_id,
               scratch.snapshot, scratch.reader);
   out.bytes_read = scratch.snapshot.bytes_read;
@@ -295,6 +303,8 @@ void make_product(const RunSetup& setup, const readers::Series& series, std::siz
   reduce(setup, out, scratch);
   out.image = find_clusters(setup.grid, out.holdup, scratch.mass, scratch.mass_vx, scratch.mass_vz,
                             setup.settings.clusters);
+  out.bed = bed_heights(setup.grid, layer_holdups(setup.grid, out));
+  if (setup.settings.bubbles) out.bubbles = make_bubbles(setup, out.holdup, out.bed.surface);
 }
 
 }  // namespace bedscope::analysis

@@ -3,9 +3,10 @@
 #pragma once
 
 #include <algorithm>
-#include <exception>
 #include <vector>
 
+#include "analysis/bed_height.hpp"
+#include "analysis/bubbles.hpp"
 #include "analysis/clusters.hpp"
 #include "analysis/run_setup.hpp"
 #include "readers/flaws.hpp"
@@ -86,10 +87,11 @@ struct SnapshotProduct {
   double temperature_zero = 0;           ///< T0 [K]
   std::int64_t without_temperature = 0;
   ClusterImage image;
+  BedHeights bed;
+  BubbleProduct bubbles;       ///< where the study asks for them
   std::vector<double> holdup;  ///< depth-averaged, all types
   readers::Flaws flaws;
   std::uint64_t bytes_read = 0;
-  std::exception_ptr error;  ///< what stopped it; thrown again in the order of the series
 };
 
 /// Buffers of one worker.

@@ -62,29 +62,47 @@ bool add_file(Fnv1a& hash, const std::filesystem::path& path) {
          add_part(hash, file.get(), size - end_bytes, end_bytes);
 }
 
+Json bubble_summary(const RunResult& run) {
+  if (!run.bubbles) return nullptr;
+  const Bubbles& bubbles = *run.bubbles;
+  return {{"mean_number", bubbles.number.value},     {"mean_number_ci95", bubbles.number.ci95},
+          {"mean_diameter", bubbles.diameter.value}, {"mean_diameter_ci95", bubbles.diameter.ci95},
+          {"mean_velocity", bubbles.velocity.value}, {"mean_velocity_ci95", bubbles.velocity.ci95}};
+}
+
 // nlohmann::json writes NaN and infinities as null, which is what we promise.
 Json run_summary(const RunResult& run) {
   const Json unknown = nullptr;
-  return {{"label", run.label},
-          {"snapshots", run.window.snapshots},
-          {"from", run.time_known ? Json(run.window.from) : unknown},
-          {"to", run.time_known ? Json(run.window.to) : unknown},
-          {"mean_holdup", run.mean_holdup.value},
-          {"mean_holdup_ci95", run.mean_holdup.ci95},
-          {"inventory_kg", run.density_known ? Json(run.inventory_mass.value) : unknown},
-          {"inventory_kg_ci95", run.density_known ? Json(run.inventory_mass.ci95) : unknown},
-          {"mean_occurrence", run.mean_occurrence.value},
-          {"mean_occurrence_ci95", run.mean_occurrence.ci95},
-          {"mean_bed_voidage", run.bed_voidage.value},
-          {"mean_bed_voidage_ci95", run.bed_voidage.ci95},
-          {"independent_samples", run.independent_samples},
-          {"outside_fraction", run.outside_fraction},
-          {"bytes_read", run.bytes_read},
-          {"seconds", run.seconds},
-          {"mapping", run.mapping},
-          {"domain_assumed", run.domain_assumed},
-          {"window", {{"automatic", run.window.automatic}, {"steady", run.window.steady}}},
-          {"problems", run.problems}};
+  Json summary = {
+      {"label", run.label},
+      {"snapshots", run.window.snapshots},
+      {"from", run.time_known ? Json(run.window.from) : unknown},
+      {"to", run.time_known ? Json(run.window.to) : unknown},
+      {"mean_holdup", run.mean_holdup.value},
+      {"mean_holdup_ci95", run.mean_holdup.ci95},
+      {"inventory_kg", run.density_known ? Json(run.inventory_mass.value) : unknown},
+      {"inventory_kg_ci95", run.density_known ? Json(run.inventory_mass.ci95) : unknown},
+      {"mean_occurrence", run.mean_occurrence.value},
+      {"mean_occurrence_ci95", run.mean_occurrence.ci95},
+      {"mean_bed_voidage", run.bed_voidage.value},
+      {"mean_bed_voidage_ci95", run.bed_voidage.ci95},
+      {"independent_samples", run.independent_samples},
+      {"outside_fraction", run.outside_fraction},
+      {"bytes_read", run.bytes_read},
+      {"seconds", run.seconds},
+      {"mapping", run.mapping},
+      {"domain_assumed", run.domain_assumed},
+      {"window", {{"automatic", run.window.automatic}, {"steady", run.window.steady}}},
+      {"problems", run.problems}};
+  if (run.gas.present)
+    summary.update({{"gas_times", run.gas.times},
+                    {"gas_matched", run.gas.checks.size()},
+                    {"voidage_ratio", run.gas.voidage_ratio.value},
+                    {"voidage_ratio_ci95", run.gas.voidage_ratio.ci95},
+                    {"pressure_drop", run.gas.pressure_drop.value},
+                    {"pressure_drop_ci95", run.gas.pressure_drop.ci95},
+                    {"bed_weight_over_area", run.gas.bed_weight_by_area}});
+  return summary;
 }
 
 Json input_summary(const RunResult& run) {

@@ -9,8 +9,10 @@
 #include <string>
 #include <string_view>
 
+#include "analysis/bed_tables.hpp"
 #include "analysis/csv.hpp"
-#include "readers/error.hpp"
+#include "analysis/gas_tables.hpp"
+#include "analysis/output_file.hpp"
 
 namespace bedscope::analysis {
 namespace {
@@ -109,13 +111,6 @@ void write_temperature_pdf(std::span<const RunResult> runs, const std::filesyste
   table.commit();
 }
 
-// A table of an earlier analysis, which would now be taken for one of this.
-void remove_old(const std::filesystem::path& path) {
-  std::error_code error;
-  std::filesystem::remove(path, error);
-  if (error) throw FileError("{}: {}", path.string(), error.message());
-}
-
 }  // namespace
 
 void write_tables(std::span<const RunResult> runs, const std::filesystem::path& folder) {
@@ -124,6 +119,9 @@ void write_tables(std::span<const RunResult> runs, const std::filesystem::path& 
   write_inventory(runs, folder / "inventory.csv");
   write_clusters(runs, folder / "clusters.csv");
   write_occurrence(runs, folder / "cluster_occurrence.csv");
+  write_bed_tables(runs, folder);
+
+  write_gas_tables(runs, folder);
 
   const bool temperature = std::any_of(
       runs.begin(), runs.end(), [](const RunResult& run) { return !run.temperature.empty(); });
@@ -134,12 +132,12 @@ void write_tables(std::span<const RunResult> runs, const std::filesystem::path& 
   if (temperature) {
     write_temperature(runs, folder / "temperature.csv");
   } else {
-    remove_old(folder / "temperature.csv");
+    remove_file(folder / "temperature.csv");
   }
   if (pdf) {
     write_temperature_pdf(runs, folder / "temperature_pdf.csv");
   } else {
-    remove_old(folder / "temperature_pdf.csv");
+    remove_file(folder / "temperature_pdf.csv");
   }
 }
 

@@ -13,9 +13,10 @@ namespace bedscope::analysis {
 
 /// Writes axial_profile, lateral_profile, inventory, clusters and cluster_occurrence (.csv) into
 /// `folder`, with their header alone where there are no rows; temperature and temperature_pdf only
-/// where a run has a temperature (or a PDF), else one left there earlier is removed.
-/// Times are nan where a run's are not known, masses and mass fluxes where its density is not.
-/// Throws FileError.
+/// where a run has a temperature (or a PDF), else one left there earlier is removed; and the tables
+/// of bed_tables.hpp and of the gas (gas_tables.hpp). read_tables() does not read these back. Times
+/// are nan where a run's are not known, masses and mass fluxes where its density is not. Throws
+/// FileError.
 void write_tables(std::span<const RunResult> runs, const std::filesystem::path& folder);
 
 /// The reverse: what the tables in `folder` (or in its subfolder tables/) tell of the run `label`.

@@ -5,6 +5,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <map>
 
 namespace bedscope::analysis {
 namespace {
@@ -49,9 +50,15 @@ void add_overlap(const Grid& grid, const std::vector<int>& cells, double x, doub
     }
 }
 
+Point expected_velocity(Tracker::Motion motion, const Cluster& cluster) {
+  if (motion == Tracker::Motion::of_solids) return {cluster.velocity_x, cluster.velocity_z};
+  const bool known = std::isfinite(cluster.track_velocity_z);
+  return known ? Point{cluster.track_velocity_x, cluster.track_velocity_z} : Point{};
+}
+
 /// All links, by previous and then by present cluster.
-std::vector<Link> find_links(const Grid& grid, const ClusterImage& before, const ClusterImage& now,
-                             double dt) {
+std::vector<Link> find_links(const Grid& grid, Tracker::Motion motion, const ClusterImage& before,
+                             const ClusterImage& now, double dt) {
   std::vector<Link> links;
   if (before.clusters.empty() || now.clusters.empty()) return links;
   const auto cells_before = cells_of(before), cells_now = cells_of(now);
@@ -59,8 +66,9 @@ std::vector<Link> find_links(const Grid& grid, const ClusterImage& before, const
   for (std::size_t a = 0; a < before.clusters.size(); ++a) {
     std::fill(overlap.begin(), overlap.end(), 0);
     const Cluster& cluster = before.clusters[a];
-    add_overlap(grid, cells_before[a], cluster.velocity_x * dt / grid.width(lateral),
-                cluster.velocity_z * dt / grid.width(up), now.labels, overlap);
+    const Point velocity = expected_velocity(motion, cluster);
+    add_overlap(grid, cells_before[a], velocity.x * dt / grid.width(lateral),
+                velocity.z * dt / grid.width(up), now.labels, overlap);
     for (std::size_t b = 0; b < overlap.size(); ++b) {
       const std::size_t smaller = std::min(cells_before[a].size(), cells_now[b].size());
       // Rounding must not decide where the overlap is a quarter exactly.
@@ -90,7 +98,8 @@ void Tracker::link(ClusterImage& now, double time) {
   // The longer of two steps: an extra snapshot, such as a restart writes, opens no gap after it.
   const bool gap = known && dt > longest_gap * (1 + 1e-9) * std::fmax(step_, step_before_);
 
-  const auto links = gap ? std::vector<Link>{} : find_links(grid_, before_, now, known ? dt : 0);
+  const auto links =
+      gap ? std::vector<Link>{} : find_links(grid_, motion_, before_, now, known ? dt : 0);
   std::vector<Ties> ties_before(before_.clusters.size()), ties_now(now.clusters.size());
   for (const Link& link : links) {
     ties_before[link.before].add(link);
@@ -122,6 +131,18 @@ void Tracker::link(ClusterImage& now, double time) {
   if (known) {
     step_before_ = step_;
     step_ = dt;
+  }
+}
+
+void keep_from(std::vector<Cluster>& clusters, std::size_t first) {
+  std::erase_if(clusters, [&](const Cluster& cluster) { return cluster.snapshot < first; });
+  std::map<int, int> numbers;
+  for (const Cluster& cluster : clusters)
+    numbers.try_emplace(cluster.track, static_cast<int>(numbers.size()) + 1);
+  for (Cluster& cluster : clusters) {
+    cluster.track = numbers.at(cluster.track);
+    std::erase_if(cluster.parents, [&](int parent) { return !numbers.contains(parent); });
+    for (int& parent : cluster.parents) parent = numbers.at(parent);
   }
 }
 

@@ -10,11 +10,12 @@ namespace bedscope::analysis {
 
 /// Links the clusters of consecutive snapshots; feed it in the order of time.
 ///
-/// The cells of each previous cluster are moved by its velocity times dt, cut at cell faces (one
-/// moved cell covers up to four), and a pair is linked where the overlap is at least a quarter of
-/// the smaller cluster's area. The smaller one: a cluster that is swallowed and a piece that breaks
-/// off lie wholly inside the other, however large that is. A quarter: two equal discs still link
-/// when the velocity is wrong by 0.63 diameters a snapshot, and clusters that only graze do not.
+/// The cells of each previous cluster are moved by its velocity times dt (that of its solids or,
+/// for bubbles, that of its track so far, 0 at first sight), cut at cell faces (one moved cell
+/// covers up to four), and a pair is linked where the overlap is at least a quarter of the smaller
+/// cluster's area. The smaller one: a cluster that is swallowed and a piece that breaks off lie
+/// wholly inside the other, however large that is. A quarter: two equal discs still link when the
+/// velocity is wrong by 0.63 diameters a snapshot, and clusters that only graze do not.
 ///
 /// - The pair that is each other's largest overlap continues its track (ties: the lower number).
 /// - Every other track that links to a cluster is among its parents, ascending. So what splits off
@@ -32,17 +33,24 @@ namespace bedscope::analysis {
 /// across a periodic seam.
 class Tracker {
  public:
-  explicit Tracker(const Grid& grid) : grid_(grid) {}
+  enum class Motion { of_solids, of_track };
+  explicit Tracker(const Grid& grid, Motion motion = Motion::of_solids)
+      : grid_(grid), motion_(motion) {}
   /// Sets track, track_velocity and parents of the clusters of `now`, seen at `time` [s].
   void link(ClusterImage& now, double time);
 
  private:
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   Grid grid_;
+  Motion motion_;
   ClusterImage before_;
   double time_ = unknown;
   double step_ = unknown, step_before_ = unknown;  ///< the last two known steps of time [s]
   int tracks_ = 0;
 };
+
+/// Leaves the clusters of the snapshots from `first` on, their tracks numbered from 1 in order of
+/// appearance, without the parents before.
+void keep_from(std::vector<Cluster>& clusters, std::size_t first);
 
 }  // namespace bedscope::analysis

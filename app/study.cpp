@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <numeric>
 #include <set>
 #include <sstream>
@@ -328,7 +329,8 @@ void read_scene(Table& table, RunSettings& settings) {
   }
   by_type(table, "density", settings.density);
   by_type(table, "radius", settings.radius);
-  table.positive("gas_density");
+  if (const auto density = table.positive("gas_density")) settings.gas.density = density;
+  settings.gas.gravity = table.positive("gravity").value_or(settings.gas.gravity);
   if (auto species = table.table("species")) {
     settings.species.clear();
     for (const auto& [name, node] : species->raw()) {
@@ -353,18 +355,36 @@ void read_scene(Table& table, RunSettings& settings) {
   }
 }
 
+void read_thresholds(Table& table, analysis::ClusterThresholds& thresholds) {
+  thresholds.threshold = table.positive("threshold").value_or(thresholds.threshold);
+  thresholds.core = table.positive("core").value_or(thresholds.core);
+  thresholds.min_area = table.positive("min_area").value_or(thresholds.min_area);
+  table.finish();
+}
+
 void read_products(Table& study, RunSettings& settings) {
   if (auto profiles = study.table("profiles")) {
     settings.heights = profiles->numbers("heights").value_or(std::vector<double>{});
     settings.band = profiles->positive("band").value_or(0);
     profiles->finish();
   }
-  if (auto clusters = study.table("clusters")) {
-    auto& thresholds = settings.clusters;
-    thresholds.threshold = clusters->positive("threshold").value_or(thresholds.threshold);
-    thresholds.core = clusters->positive("core").value_or(thresholds.core);
-    thresholds.min_area = clusters->positive("min_area").value_or(thresholds.min_area);
-    clusters->finish();
+  if (auto clusters = study.table("clusters")) read_thresholds(*clusters, settings.clusters);
+  if (auto bubbles = study.table("bubbles")) {
+    settings.bubbles = {.threshold = 0.8, .core = 0.9, .min_area = 0};
+    read_thresholds(*bubbles, *settings.bubbles);
+    const double highest = std::max(settings.bubbles->threshold, settings.bubbles->core);
+    if (!(highest < 1))
+      bubbles->fail(bubbles->raw(), "bubbles: expected voidages below 1, found {}", highest);
+  }
+  if (auto bed = study.table("bed")) {
+    settings.height_at_rest = bed->positive("height_at_rest");
+    bed->finish();
+  }
+  settings.bed = study.find("bed") != nullptr || settings.bubbles;
+  if (auto spectra = study.table("spectra")) {
+    settings.spectra = true;
+    settings.segment = spectra->positive("segment");
+    spectra->finish();
   }
   if (auto temperature = study.table("temperature")) {
     settings.temperature_column = temperature->text("column").value_or(settings.temperature_column);
@@ -380,6 +400,35 @@ void read_products(Table& study, RunSettings& settings) {
     settings.temperature_bins = static_cast<int>(bins);
     temperature->finish();
   }
+  if (auto gas = study.table("gas")) {
+    auto& fields = settings.gas.fields;
+    fields.voidage = gas->text("voidage").value_or("");
+    fields.solids = gas->text("solids").value_or("");
+    if (!fields.voidage.empty() && !fields.solids.empty())
+      gas->fail(*gas->find("solids"), "gas.voidage and gas.solids: expected one of them");
+    fields.velocity = gas->text("velocity").value_or("");
+    fields.pressure = gas->text("pressure").value_or("");
+    fields.temperature = gas->text("temperature").value_or("");
+    settings.gas.options.region = gas->text("region").value_or("");
+    gas->finish();
+  }
+}
+
+readers::Decomposition decomposition(Table& table, const std::string& name) {
+  using readers::Decomposition;
+  static const std::map<std::string, Decomposition> all{
+      {"automatic", Decomposition::automatic},
+      {"collated", Decomposition::collated},
+      {"processors", Decomposition::processors},
+      {"reconstructed", Decomposition::reconstructed},
+      {"separate", Decomposition::separate}};
+  const auto found = all.find(name);
+  if (found == all.end())
+    table.fail(*table.find("decomposition"),
+               "{}: expected automatic, reconstructed, processors, separate or collated, found "
+               "\"{}\"",
+               table.key("decomposition"), name);
+  return found->second;
 }
 
 StudyRun read_run(Table& table, RunSettings settings, const std::filesystem::path& folder,
@@ -403,6 +452,7 @@ StudyRun read_run(Table& table, RunSettings settings, const std::filesystem::pat
                settings.label);
   if (particles) settings.particles = in_folder(*particles);
   if (tables) run.tables = in_folder(*tables);
+  if (const auto probes = table.text("probes")) settings.probes = in_folder(*probes);
   settings.time_step = table.positive("time_step");
   settings.step_zero = table.integer("step_zero").value_or(0);
   if (const auto repeated = table.text("repeated")) {
@@ -411,9 +461,15 @@ StudyRun read_run(Table& table, RunSettings settings, const std::filesystem::pat
                  table.key("repeated"), *repeated);
     settings.repeated = *repeated == "first" ? readers::Repeated::first : readers::Repeated::last;
   }
-  for (const auto* key : {"columns", "gas", "decomposition"})
-    if (table.find(key) != nullptr)
-      run.problems.push_back(fmt::format("key {} is not used by this version", key));
+  settings.columns = table.texts("columns").value_or(std::vector<std::string>{});
+  if (const auto gas = table.text("gas")) {
+    if (tables)
+      table.fail(*table.find("gas"), "run \"{}\": gas: expected particles beside it, found tables",
+                 settings.label);
+    settings.gas.path = in_folder(*gas);
+  }
+  if (const auto name = table.text("decomposition"))
+    settings.gas.options.decomposition = decomposition(table, *name);
   table.finish();
   run.settings = std::move(settings);
   return run;

@@ -20,26 +20,31 @@ struct Spelling {
 };
 
 // Sources: LIGGGHTS dump.html; `dump atom/vtk` (radii, velocity_lin); LPP (all vectors without
-// index); MFiX .vtp (Diameter, Velocity).
+// index); MFiX .vtp (Diameter, Velocity); foamToVTK of clouds (d, U; of CFDEMcoupling's: r).
 constexpr std::array spellings{
     Spelling{"radius", "radius"},
     Spelling{"radius", "radii"},
     Spelling{"radius", "diameter", 0.5},
     Spelling{"radius", "Diameter", 0.5},
+    Spelling{"radius", "d", 0.5},
+    Spelling{"radius", "r"},
     Spelling{"density", "density"},
     Spelling{"density", "rho"},
     Spelling{"vx", "vx"},
     Spelling{"vx", "velocity_lin[1]"},
     Spelling{"vx", "velocity[1]"},
     Spelling{"vx", "Velocity[1]"},
+    Spelling{"vx", "U[1]"},
     Spelling{"vy", "vy"},
     Spelling{"vy", "velocity_lin[2]"},
     Spelling{"vy", "velocity[2]"},
     Spelling{"vy", "Velocity[2]"},
+    Spelling{"vy", "U[2]"},
     Spelling{"vz", "vz"},
     Spelling{"vz", "velocity_lin[3]"},
     Spelling{"vz", "velocity[3]"},
     Spelling{"vz", "Velocity[3]"},
+    Spelling{"vz", "U[3]"},
 };
 
 /// The last column of that name: LPP and VTK keep the last of doubled ones too.

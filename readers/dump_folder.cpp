@@ -2,77 +2,166 @@
 #include "readers/dump_folder.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "readers/error.hpp"
+#include "readers/source.hpp"
 
 namespace bedscope::readers {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Files of one form whose names differ in their numbers only.
-struct Group {
-  const Form* form = nullptr;
-  std::vector<DumpFile> files;
-};
-using Groups = std::map<std::pair<std::string, std::string>, Group>;  // by form and stem
+using Groups = std::map<std::pair<std::string, std::string>, DumpGroup>;  // by form and stem
 
 struct Stranger {
   NameParts name;
   std::string what;  // with its path
 };
 
-/// Which run of digits of the names of one stem is the step: the last one that differs from file to
-/// file, or the last one where none does.
-std::size_t step_position(const std::vector<DumpFile>& files) {
-  const auto& first = files.front().name.numbers;
+/// A file that names others, with what they are.
+struct Index {
+  std::string path;
+  const IndexForm* form;
+  FileIndex content;
+
+  bool has_times() const {
+    return !content.snapshots.empty() && !std::isnan(content.snapshots.front().time);
+  }
+};
+
+/// Which run of digits of the names of one stem is the step: the last one that differs from name to
+/// name, or the last one where none does.
+std::size_t step_position(const std::vector<DumpUnit>& units) {
+  const auto& first = units.front().name.numbers;
   for (std::size_t k = first.size(); k-- > 0;)
-    for (const auto& file : files)
-      if (file.name.numbers[k] != first[k]) return k;
+    for (const auto& unit : units)
+      if (unit.name.numbers[k] != first[k]) return k;
   return first.size() - 1;
 }
 
-std::optional<std::int64_t> step_in(const NameParts& name, const Group& group) {
-  return name.numbers.empty() ? std::nullopt : to_step(name.numbers[step_position(group.files)]);
+std::optional<std::int64_t> step_in(const NameParts& name, const DumpGroup& group) {
+  return name.numbers.empty() ? std::nullopt : to_step(name.numbers[step_position(group.units)]);
 }
 
-std::pair<Groups, std::vector<Stranger>> group_by_content(const std::vector<std::string>& paths) {
-  Groups groups;
+/// What the paths are by their content.
+struct Sorted {
+  std::vector<Index> indices;
+  std::vector<std::pair<std::string, const Form*>> dumps;
   std::vector<Stranger> strangers;
+};
+
+Sorted sort_by_content(const std::vector<std::string>& paths) {
+  Sorted sorted;
   for (const auto& path : paths) {
-    auto name = split_name(path);
     try {
-      const auto& form = identify(path);
-      auto& group = groups[{std::string(form.name), name.stem}];
-      group.form = &form;
-      group.files.push_back({path, std::move(name), {}, false});
+      const auto head = read_head(path);
+      if (const auto* index = index_form(head))
+        sorted.indices.push_back({path, index, read_index(path, *index)});
+      else
+        sorted.dumps.emplace_back(path, &identify(path, head));
     } catch (const FormatError& what) {
-      strangers.push_back({std::move(name), what.what()});
+      sorted.strangers.push_back({split_name(path), what.what()});
     }
   }
-  return {std::move(groups), std::move(strangers)};
+  return sorted;
+}
+
+/// Indices that another one names are part of it. Of several that name one file the first is taken
+/// of those with times, or of all.
+std::vector<Index> choose_indices(std::vector<Index> indices, DumpFolder& found) {
+  std::set<std::string> named;
+  for (const auto& index : indices)
+    if (index.content.error.empty())  // what names itself is not another's part
+      named.insert(index.content.named.begin(), index.content.named.end());
+  std::erase_if(indices, [&](const Index& index) {
+    return named.contains(fs::path(index.path).lexically_normal().string());
+  });
+  std::stable_partition(indices.begin(), indices.end(),
+                        [](const Index& index) { return index.has_times(); });
+  std::map<std::string, std::string> owner;
+  std::vector<Index> chosen;
+  for (auto& index : indices) {
+    const auto& names = index.content.named;
+    const auto twice = std::find_if(names.begin(), names.end(),
+                                    [&](const auto& name) { return owner.contains(name); });
+    if (twice != names.end()) {
+      found.left_out.push_back(
+          fmt::format("{}: names files that {} names too", index.path, owner.at(*twice)));
+      continue;
+    }
+    for (const auto& name : names) owner.emplace(name, index.path);
+    chosen.push_back(std::move(index));
+  }
+  return chosen;
+}
+
+/// The files of one snapshot, all of one form.
+const Form& form_of(const IndexedSnapshot& snapshot) {
+  const Form* form = nullptr;
+  for (const auto& file : snapshot.files) {
+    const Form* own = nullptr;
+    try {
+      own = &identify(file.path);
+    } catch (const Error& what) {
+      throw FormatError("{}: {}", file.place(), what.what());
+    }
+    if (form != nullptr && form != own)
+      throw FormatError("{}: two forms, {} and {}", file.place(), form->name, own->name);
+    form = own;
+  }
+  return *form;
+}
+
+/// One group for each stem of what the index names.
+void add_units(Index& index, Groups& groups, std::vector<Stranger>& strangers) {
+  for (auto& snapshot : index.content.snapshots) {
+    DumpUnit unit;
+    unit.name = split_name(snapshot.name);
+    unit.time = snapshot.time;
+    try {
+      const auto& form = form_of(snapshot);
+      for (const auto& file : snapshot.files) unit.files.push_back(file.path);
+      unit.indexed = std::move(snapshot.files);
+      auto& group = groups[{std::string(form.name), unit.name.stem}];
+      group.form = &form;
+      group.units.push_back(std::move(unit));
+    } catch (const FormatError& what) {
+      strangers.push_back({std::move(unit.name), what.what()});
+    }
+  }
 }
 
 /// What a group holds instead of particles; empty for particles. Its last file by name may be a
 /// half-written one, so the first is taken, and the next only where that one is cut or empty.
-std::string not_particles(const Group& group, DumpFolder& found) {
-  for (const auto& file : group.files) {
+std::string not_particles(const DumpGroup& group, DumpFolder& found) {
+  std::string instead;
+  for (const auto& unit : group.units) {
     try {
-      const auto scan = group.form->scan(file.path, !group.form->glance_tells);
-      if (!scan.not_particles.empty()) return scan.not_particles;
-      if (scan.snapshots.empty() || scan.snapshots[0].parts == nullptr) return {};
-      found.columns = *scan.snapshots[0].columns;
-      found.parts = *scan.snapshots[0].parts;
-      if (scan.snapshots[0].particles > 0) return {};  // LPP's files of 0 particles have no arrays
+      for (const auto& file : unit.files) {
+        const auto scan = group.form->scan(file, !group.form->glance_tells);
+        if (!scan.not_particles.empty()) {
+          if (instead.empty()) instead = scan.not_particles;
+          continue;
+        }
+        instead.clear();
+        if (scan.snapshots.empty() || scan.snapshots[0].parts == nullptr) return {};
+        found.columns = *scan.snapshots[0].columns;
+        found.parts = *scan.snapshots[0].parts;
+        if (scan.snapshots[0].particles > 0)
+          return {};  // LPP's files of 0 particles have no arrays
+      }
+      if (!instead.empty()) return instead;
     } catch (const CutError&) {
       continue;
     }
   }
-  return {};
+  return instead;
 }
 
 void require_one_form(const std::string& where, const Groups& groups) {
@@ -98,6 +187,30 @@ void judge(const Stranger& stranger, const Groups& groups, std::int64_t last_ste
   if (step_in(stranger.name, like->second).value_or(last_step) <= last_step)
     throw FormatError("{}", stranger.what);
   found.unfinished.push_back(stranger.what);
+}
+
+/// Indices to units; what they name is not counted a second time. A list that cannot be used is
+/// left out, what it names is then read as it lies; pieces without their index are not.
+void take_indices(Sorted& sorted, Groups& groups, DumpFolder& found) {
+  if (sorted.dumps.size() + sorted.indices.size() > 1)
+    std::erase_if(sorted.indices, [&](const Index& index) {
+      const bool broken = !index.form->one_snapshot && !index.content.error.empty();
+      if (broken) found.problems.push_back(index.content.error + ": not used");
+      return broken;
+    });
+  std::set<std::string> taken;
+  for (auto& index : choose_indices(std::move(sorted.indices), found)) {
+    taken.insert(index.content.named.begin(), index.content.named.end());
+    for (auto& problem : index.content.problems) found.problems.push_back(std::move(problem));
+    if (index.content.error.empty())
+      add_units(index, groups, sorted.strangers);
+    else
+      sorted.strangers.push_back({split_name(index.path), index.content.error});
+  }
+  const auto is_taken = [&](const auto& dump) {
+    return taken.contains(fs::path(dump.first).lexically_normal().string());
+  };
+  std::erase_if(sorted.dumps, is_taken);
 }
 
 }  // namespace
@@ -126,16 +239,33 @@ std::optional<std::int64_t> to_step(const std::string& digits) {
 DumpFolder sort_out(const std::string& where, std::vector<std::string> paths) {
   if (paths.empty()) throw FileError("{}: no files in this folder", where);
   std::sort(paths.begin(), paths.end());
-  auto [groups, strangers] = group_by_content(paths);
   DumpFolder found;
+  Groups groups;
+  auto sorted = sort_by_content(paths);
+  const bool alone = paths.size() == 1 && !sorted.indices.empty();
+  take_indices(sorted, groups, found);
+  for (const auto& [path, form] : sorted.dumps) {
+    auto name = split_name(path);
+    auto& group = groups[{std::string(form->name), name.stem}];
+    group.form = form;
+    DumpUnit unit;
+    unit.files.push_back(path);
+    unit.name = std::move(name);
+    group.units.push_back(std::move(unit));
+  }
   std::erase_if(groups, [&found](const auto& item) {
     const auto what = not_particles(item.second, found);
-    for (const auto& file : item.second.files)
-      if (!what.empty()) found.left_out.push_back(fmt::format("{}: {}", file.path, what));
-    return !what.empty();
+    if (what.empty()) return false;
+    for (const auto& unit : item.second.units)
+      for (const auto& file : unit.files)
+        found.left_out.push_back(fmt::format("{}: {}", file, what));
+    return true;
   });
   if (groups.empty()) {
-    for (const auto& stranger : strangers) found.left_out.push_back(stranger.what);
+    for (const auto& stranger : sorted.strangers) found.left_out.push_back(stranger.what);
+    if (alone && !sorted.strangers.empty()) throw FormatError("{}", sorted.strangers[0].what);
+    if (alone && !found.left_out.empty())
+      throw FormatError("{}: not particles: {}", where, found.left_out.front());
     throw FileError(
         "{}: no particle dumps among {} files{}", where, paths.size(),
         found.left_out.empty() ? "" : fmt::format(" (first: {})", found.left_out.front()));
@@ -144,16 +274,18 @@ DumpFolder sort_out(const std::string& where, std::vector<std::string> paths) {
   found.form = groups.begin()->second.form;
 
   std::int64_t last_step = std::numeric_limits<std::int64_t>::min();
-  for (auto& [key, group] : groups)
-    for (auto& file : group.files) {
-      file.step_of_name = step_in(file.name, group);
-      last_step = std::max(last_step, file.step_of_name.value_or(0));
+  for (auto& [key, group] : groups) {
+    join_pieces(group, found);
+    for (auto& unit : group.units) {
+      unit.step_of_name = step_in(unit.name, group);
+      last_step = std::max(last_step, unit.step_of_name.value_or(0));
     }
-  for (const auto& stranger : strangers) judge(stranger, groups, last_step, found);
+  }
+  for (const auto& stranger : sorted.strangers) judge(stranger, groups, last_step, found);
   for (auto& [key, group] : groups)
-    for (auto& file : group.files) {
-      file.last = file.step_of_name.value_or(0) == last_step;
-      found.files.push_back(std::move(file));
+    for (auto& unit : group.units) {
+      unit.last = unit.step_of_name.value_or(0) == last_step;
+      found.units.push_back(std::move(unit));
     }
   return found;
 }

@@ -5,14 +5,15 @@
 
 #include "readers/error.hpp"
 #include "readers/source.hpp"
+#include "readers/vtk_xml.hpp"
 
 namespace bedscope::readers {
 
-extern const Form liggghts_text, openfoam_cloud, vtk_legacy, vtk_xml;
+extern const Form liggghts_bin, liggghts_text, openfoam_cloud, vtk_legacy, vtk_xml;
 
 std::span<const Form* const> forms() {
-  static constexpr std::array<const Form*, 4> all{&liggghts_text, &openfoam_cloud, &vtk_legacy,
-                                                  &vtk_xml};
+  static constexpr std::array<const Form*, 5> all{&liggghts_bin, &liggghts_text, &openfoam_cloud,
+                                                  &vtk_legacy, &vtk_xml};
   return all;
 }
 
@@ -35,15 +36,26 @@ constexpr std::array strangers{
     Stranger{"LAMMPS data file", "a LIGGGHTS data file (write_data), not a dump"},
 };
 
+/// `dump xyz`: the number of atoms, "Atoms. Timestep: 100", rows of a type and a position.
+bool is_xyz(std::string_view head) {
+  const auto line = head.find('\n');
+  return line > 0 && head.substr(0, line).find_first_not_of("0123456789 \t\r") == head.npos &&
+         head.substr(line + 1).starts_with("Atoms");
+}
+
 }  // namespace
 
-const Form& identify(const std::string& path) {
-  const auto head = read_head(path);
+const Form& identify(const std::string& path) { return identify(path, read_head(path)); }
+
+const Form& identify(const std::string& path, std::string_view head) {
   if (head.empty()) throw FormatError("{}: file is empty", path);
   for (const auto* form : forms())
     if (form->matches != nullptr && form->matches(head)) return *form;
   for (const auto& stranger : strangers)
     if (head.starts_with(stranger.begins)) throw FormatError("{}: {}", path, stranger.what);
+  if (is_xyz(head)) throw FormatError("{}: an xyz dump: it holds no radius; use dump custom", path);
+  if (const auto type = xml_root_type(head); !type.empty())
+    throw FormatError("{}: VTK XML of type {}, not particles", path, type);
   if (head.substr(0, 64).find("LIGGGHTS") != head.npos)
     throw FormatError("{}: offset 0: a LIGGGHTS restart file, not a dump", path);
   if (head.find_first_not_of("\r\n \t") == head.npos)

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One row for each form of particle dump on disk. To add one: readers/<form>.cpp with a constant
 // Form, its name in forms.cpp, the file in readers/CMakeLists.txt, a test in tests/readers.
+// A form sees one file at a time. Files that belong together (pieces of processors, what a .pvd or
+// .vtm names) are put together by Series, whatever their form; files that only name others are
+// forms of index: readers/file_index.hpp.
 #pragma once
 
 #include <memory>
@@ -20,13 +23,20 @@ struct Located {
   std::int64_t step = no_step;  ///< no_step where the form stores none (VTK: the file's name tells)
   double time = unknown;        ///< [s], where the form stores it
   std::int64_t particles = 0;   ///< as declared
-  std::uint64_t offset = 0;     ///< [bytes] of the decompressed file
-  std::uint64_t bytes = 0;      ///< length of the snapshot, 0: to the end of the file
+  /// Copies of particles that another file of the snapshot owns (VTK's ghost points), counted in
+  /// `particles`; Series sets `without_ghosts` and takes them off where there are other files.
+  std::int64_t ghosts = 0;
+  bool without_ghosts = false;
+  std::uint64_t offset = 0;  ///< [bytes] of the decompressed file
+  std::uint64_t bytes = 0;   ///< length of the snapshot, 0: to the end of the file
   std::shared_ptr<const Checkpoint> checkpoint;  ///< where a gzip file can be entered near `offset`
   std::shared_ptr<const void>
       context;  ///< what scan() opened and read() needs again; the form's own
   Box box;
   std::shared_ptr<const std::vector<std::string>> columns;  ///< names as on disk
+  /// False where the file names no columns: they are called "column 1", "column 2" ..., and Series
+  /// puts the names that the user gives into `columns` and `parts`, where read() finds them.
+  bool named = true;
   /// Names that a Request can use, positions and components of vectors included; null where only
   /// scan(thorough) knows them.
   std::shared_ptr<const std::vector<std::string>> parts;
@@ -38,6 +48,7 @@ struct FileScan {
   std::string cut;                 ///< why the last snapshot is incomplete; empty if it is whole
   std::vector<std::string> problems;  ///< things worth a warning, with their place
   std::string not_particles;  ///< what it is instead ("a triangle mesh"); empty for particles
+  std::string unnamed;        ///< place and reason of the first snapshot that names no columns
 };
 
 /// Buffers that a reader re-uses from snapshot to snapshot; one for each thread.
@@ -58,8 +69,6 @@ struct Form {
   /// Forms that are a folder as a whole (an OpenFOAM case): is this one? null for forms of files.
   /// Also asked of names that are no folder on disk (a cloud of a case: CASE/kinematicCloud).
   bool (*matches_folder)(const std::string& folder) = nullptr;
-  /// Do snapshots have a time and no step? Then they are numbered from 0 on in the order of scan().
-  bool stores_times = false;
 
   /// Finds the snapshots of a file. `thorough` also makes sure that the last one is complete;
   /// without it only what the headers say is looked at.
@@ -67,6 +76,8 @@ struct Form {
   FileScan (*scan)(const std::string& path, bool thorough);
   /// Does scan() without `thorough` tell particles from other things in this form?
   bool glance_tells = false;
+  /// False where no file of the form names its columns: one can look at it all the same.
+  bool names_columns = true;
 
   /// Reads the columns asked for, and no others, of the snapshot that scan() located.
   /// Throws FormatError (path, place, expected, found) on anything that is not as it should be.
@@ -83,5 +94,7 @@ std::span<const Form* const> forms();
 /// The form of a file, by its content. Throws FileError, or FormatError naming what the file is
 /// where that can be told (git-lfs pointer, restart file, dump local ...).
 const Form& identify(const std::string& path);
+/// The same where the first bytes are known already; `head` as read_head() gives them.
+const Form& identify(const std::string& path, std::string_view head);
 
 }  // namespace bedscope::readers

@@ -2,6 +2,7 @@
 // What stands before the rows of a snapshot in a LIGGGHTS text dump.
 #pragma once
 
+#include <cstring>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -43,7 +44,8 @@ struct Header {
   double time = unknown;
   std::int64_t particles = -1;
   Box box;
-  std::vector<std::string> columns;
+  std::vector<std::string> columns;  // "column 1" ... where the header names none
+  bool named = true;
   std::uint64_t offset = 0;  // of its first line
   std::uint64_t lines = 0;   // up to and with "ITEM: ATOMS"
 };
@@ -79,7 +81,7 @@ class HeaderReader {
       } else if (text.starts_with("NUMBER OF ATOMS")) {
         header_.particles = integer("the number of atoms");
         if (header_.particles < 0) fail("count is negative: {}", header_.particles);
-      } else if (text.starts_with("NUMBER OF ENTRIES") || text.starts_with("NUMBER OF CONTACTS")) {
+      } else if (text.starts_with("NUMBER OF ") && is_local(text.substr(10))) {
         throw NotParticles("{}: line {}: a dump local ({}): contacts, not particles", path_,
                            line_at(path_, header_.offset) + header_.lines - 1, text.substr(10));
       } else if (text.starts_with("BOX BOUNDS")) {
@@ -101,6 +103,33 @@ class HeaderReader {
   }
 
  private:
+  /// `dump local` calls its rows ENTRIES, or what `dump_modify label` says: then "ITEM: <label>"
+  /// stands before them.
+  bool is_local(std::string_view label) {
+    if (label == "ENTRIES" || label == "CONTACTS") return true;
+    const auto rows = fmt::format("\n{}{} ", first_item, label);
+    while (window_.size() < (1U << 12) && window_.more()) {
+    }
+    const std::string_view rest(window_.begin(), window_.size());
+    const auto found = rest.find(rows);
+    return found != rest.npos && found < rest.find("\nITEM: ATOMS");
+  }
+
+  /// LAMMPS before 2010 names no columns: they are counted in the first row.
+  void number_columns() {
+    header_.named = false;
+    if (header_.particles == 0) return;
+    const void* end = nullptr;
+    while ((end = std::memchr(window_.begin(), '\n', window_.size())) == nullptr &&
+           window_.more()) {
+    }
+    std::string_view row(window_.begin(), window_.size());
+    row = row.substr(0, row.find('\n'));
+    while (!next_word(row).empty())
+      header_.columns.push_back(fmt::format("column {}", header_.columns.size() + 1));
+    if (header_.columns.empty()) fail("\"ITEM: ATOMS\" without column names and rows");
+  }
+
   void skip_blank_lines() {
     while (window_.ensure(1) && (*window_.begin() == '\n' || *window_.begin() == '\r' ||
                                  *window_.begin() == ' ' || *window_.begin() == '\t'))
@@ -181,7 +210,7 @@ class HeaderReader {
     if (header_.particles < 0) fail("\"ITEM: ATOMS\" before \"ITEM: NUMBER OF ATOMS\"");
     for (auto name = next_word(names); !name.empty(); name = next_word(names))
       header_.columns.emplace_back(name);
-    if (header_.columns.empty()) fail("\"ITEM: ATOMS\" without column names (LAMMPS before 2010)");
+    if (header_.columns.empty()) number_columns();
   }
 
   ByteWindow& window_;

@@ -136,6 +136,7 @@ Located locate(const Header& header, std::shared_ptr<const std::vector<std::stri
   located.box = header.box;
   located.columns = columns;
   located.parts = std::move(columns);
+  located.named = header.named;
   return located;
 }
 
@@ -155,25 +156,29 @@ bool looks_single(const std::string& path, const Header& header, const ByteWindo
   return body < 1.25 * expected;
 }
 
+void note_unnamed(const std::string& path, const Header& header, FileScan& found) {
+  if (header.named || !found.unnamed.empty()) return;
+  found.unnamed = fmt::format("line {}: \"ITEM: ATOMS\" without column names (LAMMPS before 2010)",
+                              line_at(path, header.offset) + header.lines - 1);
+}
+
 /// The header alone, where the file looks like one snapshot (see looks_single).
-std::optional<Located> glance(const std::string& path) {
+bool glance(const std::string& path, FileScan& found) {
   constexpr std::size_t first_look = 1U << 14;
   Source source(path);
   std::vector<char> buffer;
   ByteWindow window(source, buffer, first_look);
   const auto header = HeaderReader(window, path).next();
-  if (!header || !looks_single(path, *header, window, source.likely_size())) return std::nullopt;
-  return locate(*header, std::make_shared<const std::vector<std::string>>(header->columns));
+  if (!header || !looks_single(path, *header, window, source.likely_size())) return false;
+  note_unnamed(path, *header, found);
+  found.snapshots.push_back(
+      locate(*header, std::make_shared<const std::vector<std::string>>(header->columns)));
+  return true;
 }
 
 FileScan find_snapshots(const std::string& path, bool thorough) {
   FileScan found;
-  if (!thorough) {
-    if (auto located = glance(path)) {
-      found.snapshots.push_back(std::move(*located));
-      return found;
-    }
-  }
+  if (!thorough && glance(path, found)) return found;
   Source source(path);
   if (source.size_bound() == 0) throw FormatError("{}: file is empty", path);
   std::vector<char> buffer;
@@ -202,6 +207,7 @@ FileScan find_snapshots(const std::string& path, bool thorough) {
         break;
       }
     }
+    note_unnamed(path, *header, found);
     auto located = locate(*header, columns);
     located.bytes = window.offset() - header->offset;
     for (const auto& [offset, entry] : entries)
@@ -322,10 +328,12 @@ void read(const std::string& path, const Located& where, const Request& request,
   source.seek(where.offset);
   ByteWindow window(source, scratch.bytes);
   HeaderReader headers(window, path);
-  const auto header = headers.next();
-  if (!header || header->step != where.step || header->particles != where.particles)
+  auto header = headers.next();
+  if (!header || header->step != where.step || header->particles != where.particles ||
+      header->named != where.named)
     throw FormatError("{}: offset {}: the file has changed since it was opened", path,
                       where.offset);
+  if (!header->named) header->columns = *where.columns;  // as the user names them
   const auto names_at = [&] {
     return fmt::format("{}: line {}", path, line_at(path, header->offset) + header->lines - 1);
   };
@@ -342,7 +350,7 @@ void read(const std::string& path, const Located& where, const Request& request,
 
   // The declared count is a claim: room grows with the rows that are really there.
   const auto declared = static_cast<std::size_t>(header->particles);
-  const std::size_t least_row = 2 * header->columns.size();
+  const std::size_t least_row = 2 * std::max<std::size_t>(header->columns.size(), 1);
   const std::uint64_t most_rows = source.size_bound() / least_row + 1;
   RowReader rows(plan, header->columns.size(), scratch.raw);
   std::size_t room = std::min<std::uint64_t>(declared, most_rows);

@@ -94,6 +94,13 @@ const std::vector<std::string>& OpenFoamCase::regions() const { return impl_->re
 std::size_t OpenFoamCase::ranks() const { return impl_->ranks; }
 bool OpenFoamCase::collated() const { return impl_->folders.front().collated; }
 
+std::vector<std::string> OpenFoamCase::files(std::size_t time, std::string_view field) const {
+  std::vector<std::string> found;
+  for (const auto& folder : impl_->folders)
+    found.push_back(Impl::path_in(folder, impl_->time_folder(time) + std::string(field)));
+  return found;
+}
+
 void OpenFoamCase::read(std::size_t time, std::string_view field, FieldValues& out) const {
   const auto& fields = impl_->times.at(time).fields;
   const std::string name(field);

@@ -68,6 +68,9 @@ class OpenFoamCase {
   /// Throws InputError for a field that is not there, FormatError for one that is wrong.
   void read(std::size_t time, std::string_view field, FieldValues& out) const;
 
+  /// The files of a field at a time: one, or one a rank.
+  std::vector<std::string> files(std::size_t time, std::string_view field) const;
+
   /// Lagrangian clouds at a time (kinematicCloud ...); a cloud without parcels may be absent. One
   /// that bears the name of its time (CFDEM in serial) is called particleCloud.
   std::vector<std::string> clouds_at(std::size_t time) const;

@@ -155,6 +155,9 @@ Mesh make_mesh(CellGeometry cells) {
       mesh.min[a] = std::min(mesh.min[a], cells.low[c][a]);
       mesh.max[a] = std::max(mesh.max[a], cells.high[c][a]);
     }
+  if (!mesh.boxes)
+    for (std::size_t c = 0; c < cells.volumes.size(); ++c)
+      mesh.extents.push_back(cells.high[c] - cells.low[c]);
   mesh.centres = std::move(cells.centres);
   mesh.volumes = std::move(cells.volumes);
   return mesh;

@@ -67,6 +67,7 @@ struct Mesh {
   std::vector<Point> centres;     ///< [m]
   std::vector<double> volumes;    ///< [m3]
   std::optional<BoxCells> boxes;  ///< where every cell is a box along the axes
+  std::vector<Point> extents;     ///< of the box around each cell [m], where they are not boxes
   Point min{}, max{};             ///< of all points [m]
   /// Patches of all ranks together; those between ranks are left out, and `start` is of the rank
   /// that names the patch first.

@@ -4,11 +4,9 @@
 #include <glob.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
-#include <numeric>
-#include <optional>
-#include <set>
 
 #include "readers/error.hpp"
 #include "readers/source.hpp"
@@ -53,19 +51,25 @@ const Form* form_of_folder(const std::string& folder) {
 
 Series Series::open(const std::string& where, const SeriesOptions& options) {
   Series series;
+  series.options_ = options;
   std::error_code error;
   const auto status = fs::status(where, error);
   if (const auto* form = form_of_folder(where)) {
     series.open_file(where, *form);
   } else if (fs::is_directory(status)) {
     series.open_files(where, files_of_folder(where));
-  } else if (fs::exists(status) || where.find_first_of("*?[") == where.npos)
-    series.open_file(where, identify(where));
-  else
+  } else if (fs::exists(status) || where.find_first_of("*?[") == where.npos) {
+    const auto head = read_head(where);
+    if (index_form(head) != nullptr)
+      series.open_files(where, {where});
+    else
+      series.open_file(where, identify(where, head));
+  } else {
     series.open_files(where, files_of_pattern(where));
-  series.order(options);
+  }
+  series.order();
   series.compare_snapshots();
-  const auto& first = series.entries_.front().where;
+  const auto& first = series.located(0);
   if (first.columns != nullptr) series.columns_ = *first.columns;
   if (first.parts != nullptr) series.parts_ = *first.parts;
   return series;
@@ -73,36 +77,129 @@ Series Series::open(const std::string& where, const SeriesOptions& options) {
 
 void Series::open_file(const std::string& path, const Form& form) {
   form_ = &form;
+  DumpUnit unit;
+  unit.files.push_back(path);
+  unit.name = split_name(path);
+  if (!unit.name.numbers.empty() && form.matches_folder == nullptr)
+    unit.step_of_name = to_step(unit.name.numbers.back());
   auto scan = form_->scan(path, true);
   if (!scan.not_particles.empty()) throw FormatError("{}: {}", path, scan.not_particles);
-  const auto name = split_name(path);
-  const auto step = name.numbers.empty() ? std::nullopt : to_step(name.numbers.back());
-  note_cut(path, scan);
-  add(path, std::move(scan), step.value_or(0));
+  std::vector<FileScan> scans;
+  scans.push_back(std::move(scan));
+  join(unit, std::move(scans));
 }
 
 void Series::open_files(const std::string& where, std::vector<std::string> paths) {
   auto folder = sort_out(where, std::move(paths));
   form_ = folder.form;
   left_out_ = std::move(folder.left_out);
+  problems_ = std::move(folder.problems);
   columns_ = std::move(folder.columns);
   parts_ = std::move(folder.parts);
-  for (const auto& file : folder.files) {
+  for (const auto& unit : folder.units) {
     try {
-      auto scan = form_->scan(file.path, file.last);
-      if (!scan.cut.empty() && !file.last) throw FormatError("{}: {}", file.path, scan.cut);
-      note_cut(file.path, scan);
-      if (scan.snapshots.size() == 1 && scan.cut.empty() && scan.snapshots[0].step != no_step)
-        judge_name(file, scan.snapshots[0]);
-      add(file.path, std::move(scan), file.step_of_name.value_or(0));
+      open_unit(unit);
     } catch (const CutError& error) {
-      if (!file.last || folder.files.size() == 1) throw;
+      if (!unit.last || folder.units.size() == 1) throw;
       folder.unfinished.emplace_back(error.what());
     }
   }
   for (const auto& what : folder.unfinished) {
     cut_ = true;
     problems_.push_back(fmt::format("{}: left out", what));
+  }
+  if (entries_.empty()) throw FileError("{}: no particle dumps", where);
+}
+
+void Series::open_unit(const DumpUnit& unit) {
+  std::vector<FileScan> scans;
+  auto particles = unit;  // without blocks of something else
+  particles.files.clear();
+  particles.indexed.clear();
+  for (std::size_t k = 0; k < unit.files.size(); ++k) {
+    const auto& path = unit.files[k];
+    auto scan = form_->scan(path, unit.last);
+    if (!scan.not_particles.empty()) {
+      left_out_.push_back(fmt::format("{}: {}", path, scan.not_particles));
+      continue;
+    }
+    if (!scan.cut.empty() && !unit.last) throw FormatError("{}: {}", path, scan.cut);
+    if (unit.files.size() == 1 && unit.indexed.empty() && scan.snapshots.size() == 1 &&
+        scan.cut.empty() && scan.snapshots[0].step != no_step)
+      judge_name(unit, scan.snapshots[0]);
+    particles.files.push_back(path);
+    if (!unit.indexed.empty()) particles.indexed.push_back(unit.indexed[k]);
+    scans.push_back(std::move(scan));
+  }
+  if (!scans.empty()) join(particles, std::move(scans));
+}
+
+/// Entries of what the files of a unit hold: the same steps, in each file a part of each.
+void Series::join(const DumpUnit& unit, std::vector<FileScan> scans) {
+  using Key = std::pair<std::int64_t, std::size_t>;  // step, and how often it came before
+  std::map<Key, std::vector<Part>> found;
+  std::vector<Key> order;
+  for (std::size_t k = 0; k < scans.size(); ++k) {
+    auto& scan = scans[k];
+    const auto& path = unit.files[k];
+    note_cut(path, scan);
+    name_columns(path, scan);
+    for (const auto& problem : scan.problems)
+      problems_.push_back(fmt::format("{}: {}", path, problem));
+    files_.push_back(path);
+    std::map<std::int64_t, std::size_t> seen;
+    for (auto& located : scan.snapshots) {
+      const Key key{located.step, seen[located.step]++};
+      auto& parts = found[key];
+      if (parts.empty()) order.push_back(key);
+      parts.push_back({files_.size() - 1, std::move(located)});
+    }
+  }
+  for (const auto& key : order) {
+    auto& parts = found[key];
+    if (parts.size() < scans.size()) {  // a run killed while its processors wrote
+      cut_ = true;
+      problems_.push_back(fmt::format("{}: step {} is in {} of {} pieces: left out",
+                                      files_[parts.front().file], key.first, parts.size(),
+                                      scans.size()));
+      continue;
+    }
+    require_same_columns(unit, parts);
+    for (auto& [file, where] : parts) {  // by itself a file is taken as it stands
+      if (parts.size() == 1 || where.ghosts == 0) continue;
+      where.particles -= where.ghosts;
+      where.without_ghosts = true;
+    }
+    const auto& first = parts.front().where;
+    Entry entry;
+    entry.step_inside = first.step != no_step;
+    if (entry.step_inside)
+      entry.step = first.step;
+    else if (order.size() == 1)  // of many, the name of their file tells none
+      entry.step = unit.step_of_name.value_or(no_step);
+    entry.time = std::isnan(unit.time) ? first.time : unit.time;
+    entry.parts = std::move(parts);
+    entries_.push_back(std::move(entry));
+  }
+}
+
+/// Columns that a part lacks would be taken for absent in all, or come from another run.
+void Series::require_same_columns(const DumpUnit& unit, const std::vector<Part>& parts) const {
+  const auto holds = [](const Part& part) {
+    return part.where.particles > 0 && part.where.columns != nullptr;
+  };
+  const auto first = std::find_if(parts.begin(), parts.end(), holds);
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    if (!holds(parts[k]) || *parts[k].where.columns == *first->where.columns) continue;
+    for (const auto& [here, there] : {std::pair(&parts[k], &*first), {&*first, &parts[k]}})
+      for (const auto& name : *there->where.columns) {
+        const auto& own = *here->where.columns;
+        if (std::find(own.begin(), own.end(), name) != own.end()) continue;
+        const auto index = static_cast<std::size_t>(here - parts.data());
+        throw FormatError("{} has no array {}, {} has it",
+                          unit.indexed.empty() ? files_[here->file] : unit.indexed[index].place(),
+                          name, files_[there->file]);
+      }
   }
 }
 
@@ -113,110 +210,90 @@ void Series::note_cut(const std::string& path, const FileScan& scan) {
 }
 
 /// The step inside a file wins over its name; a name that tells another story is worth a word.
-void Series::judge_name(const DumpFile& file, const Located& located) {
-  const auto& [path, name] = std::tie(file.path, file.name);
+void Series::judge_name(const DumpUnit& unit, const Located& located) {
+  const auto& path = unit.files.front();
+  const auto& name = unit.name;
   const auto step = located.step;
   const auto names_step = [&](const std::string& digits) { return to_step(digits) == step; };
   if (name.numbers.empty()) return;
   if (std::none_of(name.numbers.begin(), name.numbers.end(), names_step))
     problems_.push_back(fmt::format("{} holds step {}: the step inside wins", path, step));
-  else if (name.stem.ends_with("_*") && !names_step(name.numbers.back()))
+  else if (name.stem.ends_with("_*") && !names_step(name.numbers.back()) && lone_pieces_++ == 0)
     problems_.push_back(fmt::format(
         "{}: one file per processor (dump %): piece {} holds {} particles of step {}, the whole "
         "count is in all pieces together",
         path, name.numbers.back(), located.particles, step));
 }
 
-void Series::add(const std::string& path, FileScan scan, std::int64_t step_of_name) {
-  files_.push_back(path);
-  for (const auto& problem : scan.problems)
-    problems_.push_back(fmt::format("{}: {}", path, problem));
+/// Puts the names that the user gives where the file has none.
+void Series::name_columns(const std::string& path, FileScan& scan) {
   for (auto& located : scan.snapshots) {
-    const auto step = form_->stores_times       ? static_cast<std::int64_t>(entries_.size())
-                      : located.step == no_step ? step_of_name
-                                                : located.step;
-    entries_.push_back({step, files_.size() - 1, std::move(located)});
-  }
-}
-
-void Series::order(const SeriesOptions& options) {
-  std::stable_sort(entries_.begin(), entries_.end(),
-                   [](const Entry& a, const Entry& b) { return a.step < b.step; });
-  std::vector<Entry> kept;
-  std::size_t dropped = 0;
-  for (auto& entry : entries_) {
-    if (kept.empty() || kept.back().step != entry.step) {
-      kept.push_back(std::move(entry));
+    if (located.named) {
+      unused_names_ = !options_.columns.empty();
       continue;
     }
-    if (options.repeated == Repeated::refuse) {
-      const auto place = [&](const Entry& e) {
-        return e.where.bytes == 0 || e.where.offset == 0
-                   ? files_[e.file]
-                   : fmt::format("{} (line {})", files_[e.file],
-                                 line_at(files_[e.file], e.where.offset));
-      };
-      throw FormatError(
-          "{}: step {} occurs twice, also in {}: say repeated = \"first\" or \"last\", or name one "
-          "dump with a pattern",
-          place(entry), entry.step, place(kept.back()));
+    if (options_.columns.empty()) {
+      if (form_->names_columns || options_.names_needed)
+        throw FormatError("{}: {}: expected their names, columns = [...] in the [[run]]", path,
+                          scan.unnamed);
+      named_ = false;
+      continue;
     }
-    ++dropped;
-    if (options.repeated == Repeated::last) kept.back() = std::move(entry);
+    const auto found = located.columns->size();
+    if (found > 0 && found != options_.columns.size())
+      throw FormatError("{}: {} columns, but columns = [...] names {}", path, found,
+                        options_.columns.size());
+    if (names_ == nullptr)
+      names_ = std::make_shared<const std::vector<std::string>>(options_.columns);
+    located.columns = located.parts = names_;
   }
-  entries_ = std::move(kept);
-  if (dropped > 0)
-    problems_.push_back(fmt::format("{} repeated steps: the {} of each was taken", dropped,
-                                    options.repeated == Repeated::first ? "first" : "last"));
 }
 
-/// Two runs in one folder show by a box or columns that change; said once.
-void Series::compare_snapshots() {
-  for (std::size_t i = 1; i < entries_.size(); ++i) {
-    const auto& a = entries_[i - 1].where;
-    const auto& b = entries_[i].where;
-    std::string changes;
-    const bool other_columns = a.columns != nullptr && b.columns != nullptr &&
-                               std::set(a.columns->begin(), a.columns->end()) !=
-                                   std::set(b.columns->begin(), b.columns->end());
-    if (a.box.known && b.box.known && (!b.box.shrink_wrapped || other_columns)) {
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        if (a.box.min[axis] != b.box.min[axis] || a.box.max[axis] != b.box.max[axis])
-          changes += fmt::format("{}box changes in {} ({}..{} to {}..{})",
-                                 changes.empty() ? "" : ", ", "xyz"[axis], a.box.min[axis],
-                                 a.box.max[axis], b.box.min[axis], b.box.max[axis]);
-    }
-    if (other_columns) {
-      const auto missing = [](const auto& from, const auto& in) {
-        std::string names;
-        for (const auto& name : from)
-          if (std::find(in.begin(), in.end(), name) == in.end()) names += " " + name;
-        return names;
-      };
-      const auto gone = missing(*a.columns, *b.columns);
-      const auto come = missing(*b.columns, *a.columns);
-      changes +=
-          fmt::format("{}columns change{}{}{}{}", changes.empty() ? "" : ", ",
-                      gone.empty() ? "" : ", gone:", gone, come.empty() ? "" : ", new:", come);
-    }
-    if (changes.empty()) continue;
-    problems_.push_back(
-        fmt::format("{}: step {}: {}: two runs in one folder?", path(i), step(i), changes));
-    return;
-  }
+std::int64_t Series::particles(std::size_t i) const {
+  std::int64_t sum = 0;
+  for (const auto& part : entries_[i].parts) sum += part.where.particles;
+  return sum;
 }
 
 void Series::read(std::size_t i, const Request& request, Snapshot& out, Scratch& scratch) const {
   const auto& entry = entries_[i];
-  form_->read(files_[entry.file], entry.where, request, out, scratch);
+  const auto& [file, where] = entry.parts.front();
+  form_->read(files_[file], where, request, out, scratch);
+  if (entry.parts.size() > 1) read_more(entry, request, out, scratch);
   out.step = entry.step;
+  out.time = entry.time;
+}
+
+/// The parts behind the first. A part without particles has no columns either.
+void Series::read_more(const Entry& entry, const Request& request, Snapshot& out,
+                       Scratch& scratch) const {
+  Snapshot part;
+  for (std::size_t k = 1; k < entry.parts.size(); ++k) {
+    form_->read(files_[entry.parts[k].file], entry.parts[k].where, request, part, scratch);
+    out.bytes_read += part.bytes_read;
+    if (part.particles == 0) continue;
+    for (std::size_t c = 0; c < request.size(); ++c) {
+      auto& to = out.columns[c];
+      if (out.particles > 0 && to.empty() != part.columns[c].empty())
+        throw FormatError("{}: column {} is only in some of the pieces",
+                          files_[entry.parts[k].file], request[c].name);
+      to.insert(to.end(), part.columns[c].begin(), part.columns[c].end());
+    }
+    out.particles += part.particles;
+  }
 }
 
 std::string Series::place(std::size_t i, std::size_t row) const {
-  const auto& entry = entries_[i];
-  const auto& path = files_[entry.file];
+  const auto& parts = entries_[i].parts;
+  auto part = parts.begin();
+  for (; std::next(part) != parts.end(); ++part) {
+    const auto rows = static_cast<std::size_t>(part->where.particles);
+    if (row < rows) break;
+    row -= rows;
+  }
+  const auto& path = files_[part->file];
   return fmt::format("{}: {}", path,
-                     form_->place != nullptr ? form_->place(path, entry.where, row)
+                     form_->place != nullptr ? form_->place(path, part->where, row)
                                              : fmt::format("point {}", row));
 }
 

@@ -160,7 +160,9 @@ FileScan scan(const std::string& path, bool thorough) {
 
   Located snapshot;
   snapshot.time = document.time;
+  const auto ghosts = ghost_points(document, decoder);
   snapshot.particles = static_cast<std::int64_t>(document.points());
+  snapshot.ghosts = std::count(ghosts.begin(), ghosts.end(), true);
   std::vector<std::string> names;
   if (const Piece* piece = first_with_points(document)) {
     for (const DataArray& array : piece->point_data) names.push_back(array.name);
@@ -197,6 +199,21 @@ void fill_columns(const Document& document, const FlatColumns& flat, const Colum
   }
 }
 
+// Leaves the rows of ghost points out; returns how many stay.
+std::size_t drop_ghosts(const Document& document, std::vector<std::vector<double>>& raw) {
+  Decoder decoder(document);
+  const auto ghosts = ghost_points(document, decoder);
+  if (ghosts.empty()) return document.points();
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < ghosts.size(); ++i) {
+    if (ghosts[i]) continue;
+    for (auto& column : raw) column[kept] = column[i];
+    ++kept;
+  }
+  for (auto& column : raw) column.resize(kept);
+  return kept;
+}
+
 void compare_twins(const std::string& path, const FlatColumns& flat, const ColumnPlan& plan,
                    const std::vector<std::vector<double>>& raw) {
   for (const auto& [first, second] : plan.twins) {
@@ -213,7 +230,7 @@ void compare_twins(const std::string& path, const FlatColumns& flat, const Colum
   }
 }
 
-void read(const std::string& path, const Located& /*where*/, const Request& request, Snapshot& out,
+void read(const std::string& path, const Located& where, const Request& request, Snapshot& out,
           Scratch& scratch) {
   Source source(path);
   const Document document = parse_document(read_all(source, scratch.bytes), path);
@@ -230,8 +247,20 @@ void read(const std::string& path, const Located& /*where*/, const Request& requ
   scratch.raw.resize(plan.parse.size());
   for (auto& column : scratch.raw) column.resize(out.particles);
   fill_columns(document, flat, plan, scratch);
+  if (where.without_ghosts) out.particles = drop_ghosts(document, scratch.raw);
   compare_twins(path, flat, plan, scratch.raw);
   finish_columns(plan, scratch.raw, out, path);
+}
+
+std::string place(const std::string& path, const Located& where, std::size_t row) {
+  if (!where.without_ghosts) return fmt::format("point {}", row);
+  std::vector<char> buffer;
+  Source source(path);
+  const Document document = parse_document(read_all(source, buffer), path);
+  Decoder decoder(document);
+  const auto ghosts = ghost_points(document, decoder);
+  for (std::size_t point = 0; point < ghosts.size() && point <= row; ++point) row += ghosts[point];
+  return fmt::format("point {}", row);
 }
 
 }  // namespace
@@ -245,6 +274,7 @@ const Form vtk_xml{
     .scan = scan,
     .glance_tells = true,
     .read = read,
+    .place = place,
 };
 
 }  // namespace bedscope::readers

@@ -164,6 +164,9 @@ class Decoder {
 /// lengths of its cells; empty for particles: points without cells, or with vertices only.
 std::string what_instead_of_particles(const Document& document, Decoder& decoder);
 
+/// True for points that are copies of another piece's; empty where no array tells of such.
+std::vector<bool> ghost_points(const Document& document, Decoder& decoder);
+
 /// Throws FormatError where cells name points that are not there; points that no cell names are
 /// worth a line in `problems`.
 void check_cells(const Document& document, const Piece& piece, const CellGroup& group,

@@ -52,8 +52,16 @@ std::string constant(std::string_view text) {
 
 }  // namespace
 
+namespace {
+/// Braces where there is more than one letter behind the `_`.
+std::string subscript(std::string_view part) {
+  return part.size() > 2 ? fmt::format("_{{{}}}", part.substr(1)) : std::string(part);
+}
+}  // namespace
+
 std::string literal(std::string_view text) {
-  static constexpr std::array<std::string_view, 6> symbols{"x", "z", "t", "φ", "v_z", "G_z"};
+  static constexpr std::array<std::string_view, 11> symbols{"x", "z",   "t", "φ",     "v_z", "G_z",
+                                                            "ε", "u_z", "p", "p_top", "T"};
   std::string result;
   for (bool first = true; !text.empty(); first = false) {
     const std::size_t end = std::min(text.find(' '), text.size());
@@ -61,7 +69,8 @@ std::string literal(std::string_view text) {
     const bool symbol = std::find(symbols.begin(), symbols.end(), word) != symbols.end();
     const std::size_t letter = std::min(word.find('_'), word.size());
     if (!first) result += ' ';
-    result += symbol ? fmt::format("{{/:Italic {}}}{}", word.substr(0, letter), word.substr(letter))
+    result += symbol ? fmt::format("{{/:Italic {}}}{}", word.substr(0, letter),
+                                   subscript(word.substr(letter)))
                      : std::string(word);
     text.remove_prefix(std::min(end + 1, text.size()));
   }
@@ -96,7 +105,10 @@ void Canvas::label(const std::string& expression, double x, double y, std::strin
 }
 
 void Canvas::axis(char name, const Axis& range, bool numbers, bool map) {
-  const std::string format = numbers ? fmt::format("%.{}f", range.decimals) : "";
+  if (range.logarithmic) body_ += fmt::format("  set logscale {0}; set m{0}tics 10\n", name);
+  const std::string format = !numbers            ? ""
+                             : range.logarithmic ? "10^{%T}"
+                                                 : fmt::format("%.{}f", range.decimals);
   body_ += fmt::format("  set {0}range [{1:.10g}:{2:.10g}]; set format {0} '{3}'\n", name, range.lo,
                        range.hi, format);
   body_ += fmt::format("  set {0}tics {1:.10g},{2:.10g},{3:.10g} {4} scale 0.5,0.25 offset {5}\n",

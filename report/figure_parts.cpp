@@ -196,6 +196,32 @@ void add_estimates(Range& range, std::span<const Estimate> estimates) {
   }
 }
 
+Samples thinned(const Samples& samples) {
+  constexpr std::size_t most = 2000;
+  if (samples.size() <= most) return samples;
+  const std::size_t stretch = 2 * samples.size() / most + 1;
+  Samples kept;
+  const auto by_value = [](const auto& a, const auto& b) { return a.second < b.second; };
+  for (std::size_t i = 0; i < samples.size(); i += stretch) {
+    const auto begin = samples.begin() + static_cast<std::ptrdiff_t>(i);
+    const auto end =
+        samples.begin() + static_cast<std::ptrdiff_t>(std::min(i + stretch, samples.size()));
+    auto [low, high] = std::minmax_element(begin, end, by_value);
+    if (high < low) std::swap(low, high);
+    kept.push_back(*low);
+    if (high != low) kept.push_back(*high);
+  }
+  return kept;
+}
+
+std::string sample_rows(const Samples& samples) {
+  std::string rows;
+  for (const auto& [time, value] : samples) {
+    rows += fmt::format("{:.10g} {:.7g}\n", time, value);
+  }
+  return rows;
+}
+
 bool seen(const analysis::Profile& profile) {
   return std::any_of(profile.holdup.begin(), profile.holdup.end(),
                      [](const Estimate& one) { return std::isfinite(one.value); });

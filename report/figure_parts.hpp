@@ -4,6 +4,7 @@
 
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "analysis/result.hpp"
@@ -23,12 +24,19 @@ Figure fields_figure(Runs runs);
 Figure axial_figure(Runs runs);
 Figure axial_species_figure(Runs runs);
 std::vector<Figure> lateral_figures(Runs runs);
+std::vector<Figure> gas_figures(Runs runs);  ///< none where no run has gas
 Figure inventory_figure(Runs runs);
 Figure occurrence_figure(Runs runs);
 Figure clusters_lateral_figure(Runs runs);
 std::vector<Figure> snapshots_figures(Runs runs);
 Figure temperature_figure(Runs runs);
 Figure temperature_pdf_figure(Runs runs);
+std::vector<Figure> bed_figures(Runs runs);  ///< of what the study asks for: none, or all
+
+Figure bed_height_figure(Runs runs);
+std::vector<Figure> bubble_strips(Runs runs);
+Figure bubble_profile_figure(Runs runs);
+Figure spectra_figure(Runs runs);
 
 /// A figure whose script and data come from the canvas.
 Figure drawn(const Canvas& canvas, std::string name, std::string title, std::string caption);
@@ -77,6 +85,12 @@ void shade_windows(Canvas& canvas, Runs runs);
 
 /// Widens a range by values with their intervals.
 void add_estimates(Range& range, std::span<const analysis::Estimate> estimates);
+/// Times and values of a series, of long ones the least and greatest of each stretch, and their
+/// rows.
+using Samples = std::vector<std::pair<double, double>>;
+Samples thinned(const Samples& samples);
+std::string sample_rows(const Samples& samples);
+
 /// Whether a profile has a value at all.
 bool seen(const analysis::Profile& profile);
 

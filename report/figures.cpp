@@ -23,7 +23,9 @@ namespace {
 
 constexpr std::array figure_names{
     "fields",     "axial_holdup", "axial_holdup_species", "lateral",     "inventory",
-    "occurrence", "snapshots",    "clusters_lateral",     "temperature", "temperature_pdf"};
+    "occurrence", "snapshots",    "clusters_lateral",     "temperature", "temperature_pdf",
+    "bed_height", "bubbles",      "bubble_profile",       "spectra",     "gas_axial",
+    "gas_lateral"};
 
 /// Whether a file in figures/ comes from a report: name or name_2 with one of our endings.
 bool is_ours(const fs::path& file) {
@@ -100,10 +102,12 @@ std::vector<Figure> make_figures(Runs runs) {
     std::move(more.begin(), more.end(), std::back_inserter(figures));
   };
   add(lateral_figures(runs));
+  add(gas_figures(runs));
   figures.push_back(inventory_figure(runs));
   figures.push_back(occurrence_figure(runs));
   figures.push_back(clusters_lateral_figure(runs));
   add(snapshots_figures(runs));
+  add(bed_figures(runs));
   figures.push_back(temperature_figure(runs));
   figures.push_back(temperature_pdf_figure(runs));
   return figures;

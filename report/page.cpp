@@ -151,8 +151,17 @@ std::string link_list(const fs::path& folder) {
                                     "tables/inventory.csv",
                                     "tables/clusters.csv",
                                     "tables/cluster_occurrence.csv",
+                                    "tables/bed_height.csv",
+                                    "tables/bubbles.csv",
+                                    "tables/bubble_profile.csv",
+                                    "tables/fluctuation.csv",
+                                    "tables/spectrum.csv",
                                     "tables/temperature.csv",
-                                    "tables/temperature_pdf.csv"};
+                                    "tables/temperature_pdf.csv",
+                                    "tables/gas_axial.csv",
+                                    "tables/gas_lateral.csv",
+                                    "tables/voidage_check.csv",
+                                    "tables/pressure_drop.csv"};
   std::string links = "<p class=\"note\">Data: ";
   for (const char* file : files) {
     std::error_code missing;

@@ -13,36 +13,7 @@ using analysis::RunResult;
 
 namespace {
 
-using Samples = std::vector<std::pair<double, double>>;  // time, value
-
 constexpr double left = 19, bottom = 11, gap = 4.5;
-
-/// Least and greatest of each stretch, where there are more samples than a print can show.
-Samples thinned(const Samples& samples) {
-  constexpr std::size_t most = 2000;
-  if (samples.size() <= most) return samples;
-  const std::size_t stretch = 2 * samples.size() / most + 1;
-  Samples kept;
-  const auto by_value = [](const auto& a, const auto& b) { return a.second < b.second; };
-  for (std::size_t i = 0; i < samples.size(); i += stretch) {
-    const auto begin = samples.begin() + static_cast<std::ptrdiff_t>(i);
-    const auto end =
-        samples.begin() + static_cast<std::ptrdiff_t>(std::min(i + stretch, samples.size()));
-    auto [low, high] = std::minmax_element(begin, end, by_value);
-    if (high < low) std::swap(low, high);
-    kept.push_back(*low);
-    if (high != low) kept.push_back(*high);
-  }
-  return kept;
-}
-
-std::string sample_rows(const Samples& samples) {
-  std::string rows;
-  for (const auto& [time, value] : samples) {
-    rows += fmt::format("{:.10g} {:.7g}\n", time, value);
-  }
-  return rows;
-}
 
 /// Brackets above a panel that mark the windows; those that differ in their runs' colours.
 double bracket_room(Runs runs) {

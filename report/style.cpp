@@ -96,6 +96,18 @@ Axis exact_axis(double lo, double hi, int intervals) {
   return axis;
 }
 
+Axis log_axis(double lo, double hi) {
+  constexpr double most_ticks = 8;
+  double first = std::floor(std::log10(lo) + 1e-9), last = std::ceil(std::log10(hi) - 1e-9);
+  if (last <= first) last = first + 1;
+  Axis axis;
+  axis.logarithmic = true;
+  axis.lo = axis.first = std::pow(10, first);
+  axis.hi = axis.last = std::pow(10, last);
+  axis.step = last - first > most_ticks ? 100 : 10;
+  return axis;
+}
+
 void Range::add(double value) {
   if (!std::isfinite(value)) return;
   lo = std::min(lo, value);

@@ -26,11 +26,15 @@ CurveStyle curve_style(std::size_t i);
 struct Axis {
   double lo = 0, hi = 1, first = 0, step = 1, last = 1;
   int decimals = 0;
+  bool logarithmic = false;  ///< ticks at powers of ten, `step` being their ratio
 };
 /// Widens [lo, hi] to whole ticks of 1, 2 or 5 times a power of ten, at most `intervals` of them.
 Axis rounded_axis(double lo, double hi, int intervals);
 /// Keeps [lo, hi] as it is, for the domain and for time.
 Axis exact_axis(double lo, double hi, int intervals);
+
+/// Whole powers of ten around [lo, hi], both above 0.
+Axis log_axis(double lo, double hi);
 
 /// Least and greatest of the finite values seen.
 struct Range {

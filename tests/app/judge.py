@@ -23,6 +23,9 @@ import tomllib
 try:
     import numpy as np
     import scipy.ndimage
+    import judge_gas
+    import scipy.signal
+    import scipy.stats
 except ImportError as missing:
     print("skipped:", missing)
     sys.exit(77)
@@ -206,9 +209,14 @@ def settings_of(study_path):
         s["depth"] = 3 - s["up"] - s["lateral"]
         s["periodic"] = ["xyz".index(axis) for axis in s["periodic"]]
         s["particles"] = os.path.join(folder, run["particles"])
+        if "gas" in run:
+            s["gas"] = os.path.join(folder, run["gas"])
+            s["gas_names"] = study.get("gas", {})
         s["profiles"] = study.get("profiles", {})
         s["clusters"] = {"threshold": 0.2, "core": 0.4, "min_area": 60e-6} | study.get("clusters", {})
         s["temperature"] = study.get("temperature", {})
+        s["bubbles"] = {"threshold": 0.8, "core": 0.9} | study["bubbles"] if "bubbles" in study else None
+        s["bed"], s["spectra"] = study.get("bed", {}), study.get("spectra")
         yield s
 
 
@@ -289,7 +297,9 @@ def recompute(s):
     phi_v = {g: np.zeros(shape) for g in groups}
     flux = {g: np.zeros(shape) for g in groups}
     tables = {name: {} for name in ("axial_profile", "lateral_profile", "inventory", "clusters",
-                                    "cluster_occurrence", "temperature", "temperature_pdf")}
+                                    "cluster_occurrence", "temperature", "temperature_pdf",
+                                    "bed_height", "bubbles", "bubble_profile", "spectrum",
+                                    "fluctuation")}
     label, domain_volume = s["label"], float(np.prod(grid.max - grid.min))
     temperature_key = s["temperature"].get("column", "f_Temp[0]")
     bins = s["temperature"].get("bins", 25)
@@ -297,6 +307,7 @@ def recompute(s):
     pdf = {g: np.zeros(len(edges) - 1) for g in groups}
     pdf_all = {g: 0.0 for g in groups}
     outside = whole = inventory = mean_holdup = occurrence = 0.0
+    seen = []  # bubbles of each snapshot in the window
     has_temperature = any(temperature_key in n["columns"] for n in snapshots)
 
     for number, snapshot in enumerate(snapshots):
@@ -333,6 +344,11 @@ def recompute(s):
         mass = grid.fields(who, where, part * rho[who]).mean(axis=1)
         momentum = [grid.fields(who, where, part * rho[who] * v).mean(axis=1) for v in (lateral, up)]
         found, area = find_clusters(grid, s, total, mass, momentum)
+        bed_row(tables["bed_height"], (label, time), s, grid, total,
+                tables["inventory"][label, time, "all"]["mean_height [m]"])
+        if s["bubbles"] is not None and number in weights:
+            seen.append(find_bubbles(grid, s["bubbles"], total,
+                                     tables["bed_height"][label, time]["height_surface [m]"]))
         tables["cluster_occurrence"][label, time] = {
             "clusters": len(found),
             "area_fraction [-]": sum(f["area [m2]"] for f in found) / (area * grid.n[0] * grid.n[2])}
@@ -380,11 +396,131 @@ def recompute(s):
             for i, centre in enumerate((edges[1:] + edges[:-1]) / 2):
                 density = pdf[g][i] / (pdf_all[g] * (edges[1] - edges[0])) if pdf_all[g] else NAN
                 tables["temperature_pdf"][label, g, centre] = {"probability_density [-]": density}
+    if s["bubbles"] is not None:
+        bubble_tables(tables, label, s, grid, times[window], [weights[i] for i in window], seen)
+    if s["spectra"] is not None:
+        spectra(tables, label, s, times[window])
     summary = {"label": label, "snapshots": len(window), "mean_holdup": mean_holdup,
                "inventory_kg": inventory, "mean_occurrence": occurrence,
                "outside_fraction": outside / whole if whole else NAN,
                "from": times[window[0]], "to": times[window[-1]]}
+    if "gas" in s:
+        gas, of_gas = judge_gas.recompute(sys.modules[__name__], s, snapshots, grid, times, window, tables)
+        tables |= gas
+        summary |= of_gas
     return tables, summary
+
+
+# --------------------------------------------------------------- bed height, bubbles, fluctuations
+def bed_row(table, key, s, grid, total, mean_height):
+    layers = total.mean(axis=1)
+    floor, width = grid.low[2], grid.size[2]
+    row = {"height [m]": 2 * (mean_height - floor), "height_solids [m]": NAN,
+           "height_surface [m]": NAN}
+    if layers.sum() > 0:
+        below = np.concatenate([[0], np.cumsum(layers)])
+        wanted = 0.95 * below[-1]
+        k = int(np.searchsorted(below, wanted)) - 1
+        row["height_solids [m]"] = (k + (wanted - below[k]) / layers[k]) * width
+        limit = (layers**2).sum() / layers.sum() / 2
+        top = np.nonzero(layers > limit)[0][-1]
+        above = layers[top + 1] if top + 1 < len(layers) else 0.0
+        height = (top + 0.5 + (layers[top] - limit) / (layers[top] - above)) * width
+        row["height_surface [m]"] = min(height, len(layers) * width)
+    rest = s["bed"].get("height_at_rest")
+    if rest is None:
+        firsts = [r["height [m]"] for k, r in table.items() if k[0] == key[0]] + [row["height [m]"]]
+        rest = next((h for h in firsts if not math.isnan(h)), NAN)
+    row["expansion [-]"] = row["height [m]"] / rest
+    table[key] = row
+
+
+def find_bubbles(grid, limits, total, surface):
+    """Bubbles of one snapshot with the cells that they own."""
+    voidage = 1 - total
+    labels, count = scipy.ndimage.label(voidage > limits["threshold"], np.ones((3, 3)))
+    cell = grid.size[0] * grid.size[2]
+    least = limits.get("min_area", 4 * cell)
+    found = []
+    for label in range(1, count + 1):
+        rows, columns = np.nonzero(labels == label)
+        if len(rows) * cell < least * (1 - 1e-9) or not voidage[rows, columns].max() > limits["core"]:
+            continue
+        z = (rows.mean() + 0.5) * grid.size[2]
+        if rows.max() == grid.n[2] - 1 or not z < surface:
+            continue
+        x = (columns + 0.5) * grid.size[0]
+        zz = rows.var() * grid.size[2] ** 2 + grid.size[2] ** 2 / 12
+        xx = x.var() + grid.size[0] ** 2 / 12
+        wall = columns.min() == 0 or columns.max() == grid.n[0] - 1 or rows.min() == 0
+        found.append({"x": grid.low[0] + x.mean(), "z": grid.low[2] + z, "area": len(rows) * cell,
+                      "aspect": math.sqrt(zz / xx), "voidage": voidage[rows, columns].mean(),
+                      "wall": int(wall), "mask": labels == label})
+    return found
+
+
+def bubble_tables(tables, label, s, grid, times, weights, seen):
+    """Sizes and shares; tracks are judged where bubbles are drawn (bubbling_test.py)."""
+    top = grid.low[2] + grid.n[2] * grid.size[2]
+    heights = s["profiles"].get("heights")
+    if heights:
+        band = s["profiles"].get("band", 2 * grid.size[2])
+    else:
+        band = (top - grid.low[2]) / min(20, grid.n[2])
+        heights = [grid.low[2] + (b + 0.5) * band for b in range(min(20, grid.n[2]))]
+    for time, found in zip(times, seen):
+        for b in found:
+            tables["bubbles"][label, time, round(b["x"], 9), round(b["z"], 9)] = {
+                "x [m]": b["x"], "z [m]": b["z"], "area [m2]": b["area"],
+                "diameter [m]": math.sqrt(4 * b["area"] / math.pi), "aspect [-]": b["aspect"],
+                "voidage [-]": b["voidage"], "at_wall": b["wall"]}
+    faces = grid.faces[2]
+    for height in heights:
+        low, high = height - band / 2, height + band / 2
+        share = np.maximum(np.minimum(high, faces[1:]) - np.maximum(low, faces[:-1]), 0)
+        number = diameter = covered = 0.0
+        for weight, found in zip(weights, seen):
+            inside = [b for b in found if low <= b["z"] < high]
+            number += weight * len(inside)
+            diameter += weight * sum(math.sqrt(4 * b["area"] / math.pi) for b in inside)
+            if found:
+                mask = sum(b["mask"] for b in found).mean(axis=1)
+                covered += weight * (mask * share).sum() / share.sum()
+        tables["bubble_profile"][label, height] = {
+            "band [m]": band, "bubbles [-]": number, "area_fraction [-]": covered,
+            "diameter [m]": diameter / number if number else NAN}
+
+
+def spectra(tables, label, s, times):
+    """scipy's Welch at the segment length that the program chose; the choice is judged in C++."""
+    gap = (times[-1] - times[0]) / (len(times) - 1)
+    inventory, bed = tables["inventory"], tables["bed_height"]
+    signals = {"mean height": ("m", [inventory[label, t, "all"]["mean_height [m]"] for t in times]),
+               "bed surface": ("m", [bed[label, t]["height_surface [m]"] for t in times]),
+               "mean holdup": ("-", [inventory[label, t, "all"]["holdup [-]"] for t in times])}
+    for name, (unit, values) in signals.items():
+        values = np.array(values)
+        weight = weights_of(times)
+        mean = (weight * values).sum()
+        tables["fluctuation"][label, name] = {
+            "samples": len(values), "mean [unit]": mean,
+            "std [unit]": math.sqrt((weight * (values - mean) ** 2).sum())}
+        length = int(s["spectra"]["segment"] / gap + 1e-6) // 2 * 2
+        f, density = scipy.signal.welch(values, 1 / gap, "hann", nperseg=length, noverlap=length // 2,
+                                        detrend="linear")
+        segments = (len(values) - length) // (length // 2) + 1
+        window = scipy.signal.get_window("hann", length)
+        rho = (window[: length // 2] @ window[length // 2 :] / (window @ window)) ** 2
+        freedom = 2 * segments / (1 + 2 * (segments - 1) / segments * rho)
+        for k in range(len(f)):
+            nu = freedom / 2 if k in (0, len(f) - 1) else freedom
+            tables["spectrum"][label, name, f[k]] = {
+                "psd [unit2/Hz]": density[k],
+                "psd_lo [unit2/Hz]": density[k] * nu / scipy.stats.chi2.ppf(0.975, nu),
+                "psd_hi [unit2/Hz]": density[k] * nu / scipy.stats.chi2.ppf(0.025, nu)}
+        tables["fluctuation"][label, name] |= {
+            "resolution [Hz]": 1 / (length * gap), "segments": segments,
+            "degrees_of_freedom": freedom}
 
 
 def profile_row(phi, phi_v, flux):
@@ -401,7 +537,12 @@ KEYS = {
     "cluster_occurrence": ["run", "time [s]"],
     "temperature": ["run", "time [s]", "type"],
     "temperature_pdf": ["run", "type", "bin_centre [-]"],
-}
+    "bed_height": ["run", "time [s]"],
+    "bubbles": ["run", "time [s]", "x [m]", "z [m]"],
+    "bubble_profile": ["run", "height [m]"],
+    "spectrum": ["run", "signal", "frequency [Hz]"],
+    "fluctuation": ["run", "signal"],
+} | judge_gas.KEYS
 HEADERS = {
     "axial_profile": "run,type,z [m],holdup [-],holdup_ci95 [-],velocity_z [m/s],velocity_z_ci95 [m/s],mass_flux_z [kg/m2/s],mass_flux_z_ci95 [kg/m2/s]",
     "lateral_profile": "run,type,height [m],x [m],holdup [-],holdup_ci95 [-],velocity_z [m/s],velocity_z_ci95 [m/s],mass_flux_z [kg/m2/s],mass_flux_z_ci95 [kg/m2/s]",
@@ -410,8 +551,13 @@ HEADERS = {
     "cluster_occurrence": "run,time [s],clusters,area_fraction [-]",
     "temperature": "run,time [s],type,mean [K],std [K],min [K],max [K]",
     "temperature_pdf": "run,type,bin_centre [-],probability_density [-]",
-}
-TEXT_KEYS = {"run", "type"}
+    "bed_height": "run,time [s],height [m],height_solids [m],height_surface [m],expansion [-]",
+    "bubbles": "run,time [s],bubble,track,x [m],z [m],area [m2],diameter [m],aspect [-],voidage [-],velocity_x [m/s],velocity_z [m/s],at_wall,parents",
+    "bubble_profile": "run,height [m],band [m],bubbles [-],bubbles_ci95 [-],diameter [m],diameter_ci95 [m],velocity_z [m/s],velocity_z_ci95 [m/s],frequency [1/s],frequency_ci95 [1/s],area_fraction [-],area_fraction_ci95 [-]",
+    "spectrum": "run,signal,unit,frequency [Hz],psd [unit2/Hz],psd_lo [unit2/Hz],psd_hi [unit2/Hz]",
+    "fluctuation": "run,signal,unit,samples,mean [unit],mean_ci95 [unit],std [unit],std_ci95 [unit],dominant_frequency [Hz],dominant_frequency_half_width [Hz],resolution [Hz],segments,degrees_of_freedom",
+} | judge_gas.HEADERS
+TEXT_KEYS = {"run", "type", "signal"}
 
 
 def rounded(value):
@@ -473,7 +619,7 @@ class Judge:
                     continue
                 # sums of positive and negative velocities, and slivers of spheres, are as exact as
                 # the largest terms in them
-                signed = column.startswith(("velocity", "mass_flux", "angle", "mean_height"))
+                signed = column.startswith(("velocity", "mass_flux", "angle", "mean_height", "slip"))
                 scale = largest.get(column, 0) * (1e-3 if signed else 1e-6)
                 self.number(f"{name}: {column}", key, value, found[key][column], max(scale, 1e-300))
             for column in row_intervals(found[key]):
@@ -490,7 +636,7 @@ class Judge:
 
     def summary(self, where, expected, found):
         for key, value in expected.items():
-            if isinstance(value, str) or key == "snapshots":
+            if isinstance(value, str) or key in ("snapshots", "gas_times", "gas_matched"):
                 if found.get(key) != value:
                     self.fault("summary", f"{where} {key}: expected {value}, found {found.get(key)}")
             else:

@@ -9,8 +9,10 @@ import random
 import sys
 import tempfile
 
+import bubbling_bed
 import judge  # exits with 77 where numpy or scipy is missing
 import numpy as np
+from gas_cases import FoamCase, random_gas
 
 DOMAIN = ([0.0, 0.0, 0.0], [0.07, 0.006, 0.3])
 
@@ -282,7 +284,55 @@ def defaults(folder):
     return write_study(folder, keys, [RUN])
 
 
+def bubbling(folder, mapping="exact", **sections):
+    """A packed bed with rising voids, some at a wall, and a little splash above."""
+    columns = [(0.0, 0.02, 0.25, 4.0, 0.2), (0.03, 0.016, 0.3, 5.0, 0.0), (0.055, 0.011, 0.2, 6.0, 0.6)]
+    bubbling_bed.write_run(folder + "/post", columns, snapshots=64, interval=0.02, width=0.07,
+                           height=0.12, diameter=0.002, splash=40)
+    return write_study(folder, scene(cell=[0.0035, 0.004], mapping=mapping, average={"from": 0.1}),
+                       [RUN], **({"bubbles": {}, "spectra": {"segment": 0.4}} | sections))
+
+
+def gas(folder, low=(0, 0, 0), high=(0.07, 0.006, 0.3), n=(14, 2, 30), mapping="exact", axes="xyz",
+        up="z", lateral="x", names=None, kinematic=True, times=None, late_temperature=False, **keys):
+    """Particles and gas: the gas at `times` [s], the particles every 0.01 s of ten."""
+    dumps = Dumps(folder + "/post", 20, axes=axes)
+    place = {axis: i for i, axis in enumerate(axes)}
+    for k in range(10):
+        particles = dumps.particles(400, clumps=2, types=(1, 2), radii=[0.0006, 0.0009])
+        particles["y"] = np.clip(particles["y"], 0.001, 0.005)
+        dumps.write(1000 * k, particles)
+
+    def turned(v):
+        return [v[place[a]] for a in "xyz"]
+
+    case = FoamCase(folder + "/CFD", turned(low), turned(high), turned(n))
+    for seed, time in enumerate(times or [f"{0.01 * k:g}" for k in range(10)]):
+        random_gas(case, time, seed, "xyz".index(up), kinematic, not late_temperature or seed > 2,
+                   "alpha.particles" if names else "voidfraction")
+    if kinematic:
+        keys["gas_density"] = 1.2
+    sections = {"gas": names} if names else {}
+    run = RUN | {"gas": "CFD"}
+    return write_study(folder, scene(mapping=mapping, up=up, lateral=lateral, density={"1": 2400, "2": 1100},
+                                     domain={"min": turned(DOMAIN[0]), "max": turned(DOMAIN[1])}, **keys),
+                       [run], profiles=PROFILES, **sections)
+
+
 CASES = {
+    "bubbling": bubbling,
+    "bubbling at heights": lambda f: bubbling(
+        f, "centre", bubbles={"threshold": 0.7, "core": 0.75, "min_area": 30e-6},
+        profiles={"heights": [0.02, 0.06, 0.11], "band": 0.03}, bed={"height_at_rest": 0.11}),
+    "gas": gas,
+    "gas on an offset mesh": lambda f: gas(f, low=(-0.0123, 0.0011, 0.0321), high=(0.0612, 0.0071, 0.2713)),
+    "gas on a fine mesh": lambda f: gas(f, n=(41, 3, 70), cell=[0.01, 0.02], times=["0.02", "0.04"]),
+    "gas on a 3-D grid": lambda f: gas(f, n=(9, 3, 17), cell=[0.005, 0.0015, 0.01], gravity=4.905),
+    "gas up is y": lambda f: gas(f, axes="zxy", up="y", lateral="z", low=(0.001, 0, -0.01)),
+    "gas as solids fraction": lambda f: gas(f, names={"solids": "alpha.particles"}, kinematic=False),
+    "gas at times of its own": lambda f: gas(
+        f, average={"from": 0.015, "to": 0.07}, late_temperature=True,
+        times=["0", "0.004", "0.01", "0.015", "0.02", "0.033", "0.05", "0.0500004", "0.07", "0.08", "0.2"]),
     "on faces": on_faces,
     "on faces exact": lambda f: on_faces(f, "exact"),
     "density column": density_column,

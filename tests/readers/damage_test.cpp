@@ -9,6 +9,7 @@
 #include <random>
 
 #include "readers/forms.hpp"
+#include "tests/readers/bin_dump.hpp"
 #include "tests/readers/test_files.hpp"
 
 namespace bedscope::readers {
@@ -76,6 +77,10 @@ std::vector<Fixture> fixtures() {
           {"vtk_binary", tiny_vtk(true, "3.0")},
           {"vtk_binary_5", tiny_vtk(true, "5.1")},
           {"vtk_gzip", gzip(tiny_vtk(true, "4.2"))},
+          {"bin", bin_dump({.step = 5, .chunks = {3, 2}}) + bin_dump({.step = 6, .triclinic = 1})},
+          {"bin_lammps", bin_dump({.step = 5, .revision = 2, .time = 0.5})},
+          {"bin_gzip", gzip(bin_dump({.step = 5, .chunks = {9}}))},
+          {"unnamed", replaced(small_dump(7, 4), " id type x y z radius ", "")},
           {"mesh", bytes_of(data / "vtk_legacy" / "triclinic_boundingBox_2000.vtk")}};
 }
 
@@ -83,6 +88,14 @@ struct Outcomes {
   std::size_t read = 0, refused = 0;
   std::chrono::steady_clock::duration slowest{};
 };
+
+/// x, y, z ... for the columns of a file that names none.
+std::shared_ptr<const std::vector<std::string>> names_for(const std::vector<std::string>& columns) {
+  std::vector<std::string> names{"x", "y", "z"};
+  while (names.size() < columns.size()) names.push_back(columns[names.size()]);
+  names.resize(columns.size());
+  return std::make_shared<const std::vector<std::string>>(std::move(names));
+}
 
 /// All that a program does with one file. Anything but an Error ends the test program.
 void use(const std::string& path, Outcomes& outcomes) {
@@ -97,7 +110,8 @@ void use(const std::string& path, Outcomes& outcomes) {
       const auto found = form.scan(path, thorough);
       EXPECT_TRUE(!found.not_particles.empty() || !found.snapshots.empty());
       if (!found.not_particles.empty()) break;
-      for (const auto& located : found.snapshots) {
+      for (auto located : found.snapshots) {
+        if (!located.named) located.columns = names_for(*located.columns);
         form.read(path, located, request, snapshot, scratch);
         for (const auto& column : snapshot.columns)
           EXPECT_TRUE(column.empty() || column.size() == snapshot.particles);

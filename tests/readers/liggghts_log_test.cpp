@@ -58,6 +58,50 @@ TEST(LiggghtsLog, DensitiesThatAreNotConstantAreNotKnown) {
                   .density.empty());
 }
 
+TEST(LiggghtsLog, VersionUnitsGravityMaterialAndRadiiAreFound) {
+  const auto log = log_of(
+      example +
+      "units ${units}\nunits cgs\nfix g all gravity 9.81 vector 0.0 -2.0 0.0\n"
+      "fix p all particletemplate/sphere 7 atom_type 1 density constant 2500 radius constant .004\n"
+      "fix m2 all property/global kn peratomtypepair 2 1e3 2e3 2e3 4e3\n");
+  EXPECT_EQ(log.version, "LIGGGHTS-PUBLIC 3.8.0");
+  EXPECT_EQ(log.units, "cgs");
+  ASSERT_TRUE(log.gravity);
+  EXPECT_EQ(*log.gravity, (std::array{0., -9.81, 0.}));
+  EXPECT_EQ(log.properties.at("youngsModulus"), (std::vector{5e6, 5e6}));
+  EXPECT_EQ(log.properties.at("kn"), (std::vector{1e3, 2e3, 2e3, 4e3}));
+  EXPECT_EQ(log.radius.at(1), (std::array{.003, .004}));  // two templates of one type
+  EXPECT_EQ(log.radius.at(2), (std::array{.0045, .0045}));
+  EXPECT_FALSE(log_of("fix g all gravity 9.81 vector 0 0 0\n").gravity);
+}
+
+TEST(LiggghtsLog, TheLastStepIsThatOfTheLastTableAndLoopTimeEndsIt) {
+  const std::string first = example + "    1000    0    0\nLoop time of 2 on 4 procs\n";
+  EXPECT_FALSE(log_of(example).ended);
+  EXPECT_EQ(log_of(example).last_step, 1);
+  EXPECT_TRUE(log_of(first).ended);
+  EXPECT_EQ(log_of(first).last_step, 1000);
+  // Thermo output may begin with any column, and words such as Step occur elsewhere.
+  const auto second = first + "Histogram: 1 0 0\n# Step 2: settle\n  Atoms  Step  CPU\n";
+  EXPECT_TRUE(log_of(second).ended);
+  EXPECT_EQ(log_of(second).last_step, 1000);
+  EXPECT_FALSE(log_of(second + "  57  2500  0.1\n").ended);
+  EXPECT_EQ(log_of(second + "  57  2500  0.1\nWARNING: x\n  57  2600  0.2\n").last_step, 2600);
+  EXPECT_FALSE(log_of("").last_step);
+}
+
+TEST(LiggghtsLog, WarningsAndErrorsAreCountedAndTheFirstIsQuoted) {
+  const auto log = log_of(
+      "INFO: no WARNING here\nWARNING: \n\n\tThe model is slow.\nWARNING: two\n"
+      "ERROR: Lost atoms: original 10 current 9 (thermo.cpp:400)\n");
+  EXPECT_EQ(log.warnings.count, 2);
+  EXPECT_EQ(log.warnings.line, 2);
+  EXPECT_EQ(log.warnings.first, "The model is slow.");
+  EXPECT_EQ(log.errors.count, 1);
+  EXPECT_EQ(log.errors.line, 6);
+  EXPECT_TRUE(log.errors.first.starts_with("Lost atoms"));
+}
+
 TEST(LiggghtsLog, ALogWithoutCommandsOrOfBytesTellsNothing) {
   for (const auto& text : {std::string(), std::string("timestep\n"), std::string(100'000, '\0'),
                            std::string(300'000, 'x')}) {

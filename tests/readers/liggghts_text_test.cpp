@@ -525,8 +525,6 @@ TEST(LiggghtsText, EachErrorNamesLineExpectedAndFound) {
       {"0 1\n0 1\n0 2\n", "0 1\nnan 0\n0 2\n", "line 7: box has no width in y: nan 0"},
       {"BOX BOUNDS ff ff ff", "BOX BOUNDS abc origin",
        "line 5: a general triclinic box (\"abc origin\") is not supported"},
-      {"ATOMS id type x y z radius", "ATOMS",
-       "line 9: \"ITEM: ATOMS\" without column names (LAMMPS before 2010)"},
       {"ATOMS id type x y z radius", "ATOMS id type y z radius",
        "line 9: no position column \"x\""},
       {"ATOMS id type x y z radius", "ATOMS id type x y z radius c_1",

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the comparison of particles and gas tells of a wrong radius, clock or domain, in words.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "analysis/gas_run.hpp"
+
+namespace bedscope::analysis {
+namespace {
+
+/// A solver's own mapping of the particles keeps their volume to this [-].
+constexpr double fair_ratio = 0.01;
+/// Fields that differ by more than this share of the holdup's own spread do not show the same bed.
+constexpr double fair_difference = 0.5;
+/// A shift is believed where it leaves less than this share of the squared difference.
+constexpr double better = 0.6;
+constexpr std::ptrdiff_t most_shift = 10;  // times of the gas
+constexpr std::size_t most_tried = 8;      // snapshots
+
+}  // namespace
+
+void GasRun::tell_cover(RunResult& result) const {
+  const auto& mapping = source_->mapping();
+  const double outside = mapping.outside_volume(), whole = mapping.mesh_volume();
+  if (outside > 1e-3 * whole)
+    result.problems.push_back(
+        fmt::format("gas: {:.3g} % of the mesh lies outside the domain", 100 * outside / whole));
+  const double covers = (whole - outside) / run_->grid.volume();
+  if (covers < 1 - 1e-3)
+    result.problems.push_back(
+        fmt::format("gas: the mesh covers {:.3g} % of the domain; the rest "
+                    "does not count in averages",
+                    100 * covers));
+  if (!mapping.exact())
+    result.problems.emplace_back(
+        "gas: cells that are not boxes along the axes are mapped as boxes of their volume and "
+        "proportions, an approximation");
+}
+
+/// True where the sides disagree by a constant factor, which explains all other differences.
+bool GasRun::tell_ratio(RunResult& result) const {
+  const auto& gas = result.gas;
+  const double ratio = gas.voidage_ratio.value;
+  const double noise = std::isfinite(gas.voidage_ratio.ci95) ? gas.voidage_ratio.ci95 : 0;
+  if (!std::isfinite(ratio) || std::abs(ratio - 1) <= std::max(fair_ratio, noise)) return false;
+  double sum = 0, squares = 0;
+  for (const auto& check : gas.checks) {
+    sum += check.ratio();
+    squares += check.ratio() * check.ratio();
+  }
+  const auto n = static_cast<double>(gas.checks.size());
+  const double spread = std::sqrt(std::max(0., squares / n - (sum / n) * (sum / n)));
+  const bool changes = gas.checks.size() > 1 && spread > fair_ratio * ratio;
+  const auto why =
+      changes ? std::string(
+                    "it changes in time: another clock or run, or solids that one side does not "
+                    "see")
+              : fmt::format(
+                    "it is constant: the radius is off by a factor of {:.3g}, the sides have "
+                    "different scales or domains, or the solver limits its voidage",
+                    std::cbrt(ratio));
+  result.problems.push_back(fmt::format(
+      "gas: the particles' volume is {:.3f} of what the voidage leaves for them ({})", ratio, why));
+  return !changes;
+}
+
+void GasRun::tell_shift(const readers::Series& particles, RunResult& result) const {
+  const auto& checks = result.gas.checks;
+  double rms = 0, spread = 0;
+  for (const auto& check : checks) {
+    rms += check.rms_difference;
+    spread += check.spread;
+  }
+  if (checks.empty() || rms <= fair_difference * spread) return;
+  // Snapshots around which all shifted times are there, so that all shifts see the same ones.
+  const auto furthest = std::clamp<std::ptrdiff_t>(std::ssize(times_) / 3, 1, most_shift);
+  std::vector<std::size_t> snapshots;
+  for (const auto& check : checks) {
+    const auto n = static_cast<std::ptrdiff_t>(gas_of_[check.snapshot]);
+    if (n >= furthest && n + furthest < std::ssize(times_)) snapshots.push_back(check.snapshot);
+  }
+  const auto middle = static_cast<std::size_t>(furthest);
+  std::vector<double> squares(2 * middle + 1), shifts(2 * middle + 1);
+  const std::size_t count = std::min(snapshots.size(), most_tried);
+  SnapshotProduct product;
+  ProductScratch scratch;
+  GasScratch gas_scratch;
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto i = snapshots[count == 1 ? 0 : k * (snapshots.size() - 1) / (count - 1)];
+    analysis::make_product(*run_, particles, i, product, scratch);
+    for (std::ptrdiff_t s = -furthest; s <= furthest; ++s) {
+      const auto n = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(gas_of_[i]) + s);
+      VoidageCheck check;
+      source_->make_check(product, places_[n], check, gas_scratch);
+      squares[static_cast<std::size_t>(s + furthest)] +=
+          check.rms_difference * check.rms_difference;
+      shifts[static_cast<std::size_t>(s + furthest)] +=
+          (times_[n] - times_[gas_of_[i]]) / static_cast<double>(count);
+    }
+  }
+  const auto best =
+      static_cast<std::size_t>(std::min_element(squares.begin(), squares.end()) - squares.begin());
+  if (count > 0 && squares[best] < better * squares[middle])
+    result.problems.push_back(fmt::format(
+        "gas: the fields fit the particles best {:.3g} s {} (rms difference {:.2g} instead of "
+        "{:.2g}): step_zero or time_step?",
+        std::abs(shifts[best]), shifts[best] > 0 ? "later" : "earlier",
+        std::sqrt(squares[best] / static_cast<double>(count)),
+        std::sqrt(squares[middle] / static_cast<double>(count))));
+  else
+    result.problems.push_back(
+        fmt::format("gas: voidage and particles differ by {:.0f} % of the holdup's own spread: do "
+                    "they show the same run, scale and axes?",
+                    100 * rms / spread));
+}
+
+}  // namespace bedscope::analysis

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "analysis/gas_mapping.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+namespace bedscope::analysis {
+namespace {
+
+constexpr double same_plane = 1e-6;  // of a grid cell: what coordinates of six digits can tell
+
+double snapped(const Grid& grid, int axis, double x) {
+  const double place = std::round((x - grid.min[axis]) / grid.width(axis));
+  if (!(place >= 0 && place <= grid.cells[axis])) return x;
+  const double face = grid.face(axis, static_cast<int>(place));
+  return std::abs(x - face) <= same_plane * grid.width(axis) ? face : x;
+}
+
+}  // namespace
+
+GasMapping::GasMapping(const readers::Mesh& mesh, const Grid& grid, const std::array<int, 3>& axes)
+    : exact_(mesh.boxes.has_value()),
+      row_(static_cast<std::size_t>(grid.cells[lateral])),
+      depth_cells_(static_cast<std::size_t>(grid.cells[depth])),
+      volumes_(mesh.volumes),
+      grid_cells_(grid.size()) {
+  if (exact_)
+    add_boxes(mesh, grid, axes);
+  else
+    add_likenesses(mesh, grid, axes);
+  find_layers(mesh, grid, axes[up]);
+}
+
+void GasMapping::add_span(const Grid& grid, std::size_t axis, double low, double high) {
+  const int a = static_cast<int>(axis);
+  Span span{.low = snapped(grid, a, low), .high = snapped(grid, a, high)};
+  span.begin = parts_[axis].size();
+  const double from = std::max(span.low, grid.min[axis]), to = std::min(span.high, grid.max[axis]);
+  if (from < to) {
+    const auto cell_of = [&](double x) {
+      return std::clamp(static_cast<int>((x - grid.min[axis]) / grid.width(a)), 0,
+                        grid.cells[axis] - 1);
+    };
+    // One cell more at both ends: a division may round across a face, the faces themselves decide.
+    const int first = std::max(cell_of(from) - 1, 0);
+    const int last = std::min(cell_of(to) + 1, grid.cells[axis] - 1);
+    for (int i = first; i <= last; ++i) {
+      const double part = std::min(to, grid.face(a, i + 1)) - std::max(from, grid.face(a, i));
+      if (part <= 0) continue;
+      if (span.parts == 0) span.first = static_cast<std::size_t>(i);
+      ++span.parts;
+      parts_[axis].push_back(part / (span.high - span.low));
+      span.inside += parts_[axis].back();
+    }
+  }
+  spans_[axis].push_back(span);
+}
+
+void GasMapping::add_boxes(const readers::Mesh& mesh, const Grid& grid,
+                           const std::array<int, 3>& axes) {
+  const auto& boxes = *mesh.boxes;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto axis = static_cast<std::size_t>(axes[k]);
+    const auto& faces = boxes.faces[axis];
+    std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> known;
+    span_of_[k].reserve(boxes.low.size());
+    for (std::size_t c = 0; c < boxes.low.size(); ++c) {
+      const auto planes = std::pair(boxes.low[c][axis], boxes.high[c][axis]);
+      const auto [place, is_new] =
+          known.try_emplace(planes, static_cast<std::int32_t>(spans_[k].size()));
+      if (is_new)
+        add_span(grid, k, faces[static_cast<std::size_t>(planes.first)],
+                 faces[static_cast<std::size_t>(planes.second)]);
+      span_of_[k].push_back(place->second);
+    }
+  }
+}
+
+void GasMapping::add_likenesses(const readers::Mesh& mesh, const Grid& grid,
+                                const std::array<int, 3>& axes) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto axis = static_cast<std::size_t>(axes[k]);
+    span_of_[k].resize(mesh.cells());
+    std::iota(span_of_[k].begin(), span_of_[k].end(), 0);
+    for (std::size_t c = 0; c < mesh.cells(); ++c) {
+      double width = std::cbrt(mesh.volumes[c]);
+      if (!mesh.extents.empty()) {
+        const auto& extent = mesh.extents[c];
+        const double around = extent[0] * extent[1] * extent[2];
+        width = extent[axis] * std::cbrt(mesh.volumes[c] / around);
+      }
+      const double centre = mesh.centres[c][axis];
+      add_span(grid, k, centre - width / 2, centre + width / 2);
+    }
+  }
+}
+
+std::vector<double> GasMapping::covered() const {
+  std::vector<double> volume(grid_cells_, 0);
+  for (std::size_t c = 0; c < cells(); ++c)
+    share(c, [&](std::size_t cell, double part) { volume[cell] += part; });
+  return volume;
+}
+
+double GasMapping::mesh_volume() const {
+  return std::accumulate(volumes_.begin(), volumes_.end(), 0.);
+}
+
+double GasMapping::outside_volume() const {
+  double volume = 0;
+  for (std::size_t c = 0; c < cells(); ++c) volume += volumes_[c] * (1 - inside(c));
+  return volume;
+}
+
+/// The cells in the domain that this height runs through.
+GasMapping::Layer GasMapping::layer_at(double height, const std::vector<double>& centres) const {
+  Layer layer;
+  for (std::size_t c = 0; c < cells(); ++c) {
+    const auto& rise = span(up, c);
+    if (inside(c) < 0.5 || !(rise.low <= height && height < rise.high)) continue;
+    layer.cells.push_back(c);
+    layer.volume += volumes_[c];
+    layer.height += volumes_[c] * centres[c];
+  }
+  layer.height /= layer.volume;
+  return layer;
+}
+
+void GasMapping::add_pressure(const Layer& near, const Layer& next, double end, double sign) {
+  // p(end) = p_near + a (p_near - p_next): the line through both layers.
+  const double a = (near.height - end) / (next.height - near.height);
+  for (const auto c : near.cells)
+    pressure_drop_.emplace_back(c, sign * (1 + a) * volumes_[c] / near.volume);
+  for (const auto c : next.cells)
+    pressure_drop_.emplace_back(c, -sign * a * volumes_[c] / next.volume);
+}
+
+void GasMapping::find_layers(const readers::Mesh& mesh, const Grid& grid, int axis) {
+  std::vector<double> centres(cells()), inside_centres;
+  for (std::size_t c = 0; c < cells(); ++c) {
+    centres[c] = mesh.centres[c][static_cast<std::size_t>(axis)];
+    if (inside(c) >= 0.5) inside_centres.push_back(centres[c]);
+  }
+  if (inside_centres.empty()) return;
+  const auto lowest = layer_at(std::ranges::min(inside_centres), centres);
+  const auto highest = layer_at(std::ranges::max(inside_centres), centres);
+  double above = -INFINITY, below = INFINITY;  // where the layers next to these begin
+  for (const auto c : lowest.cells) above = std::max(above, span(up, c).high);
+  for (const auto c : highest.cells) below = std::min(below, span(up, c).low);
+  double second = INFINITY, last_but_one = -INFINITY;
+  for (const double z : inside_centres) {
+    if (z > above) second = std::min(second, z);
+    if (z < below) last_but_one = std::max(last_but_one, z);
+  }
+  if (std::isinf(second) || std::isinf(last_but_one)) return;
+  const auto up_axis = static_cast<std::size_t>(axis);
+  add_pressure(lowest, layer_at(second, centres), std::max(grid.min[up], mesh.min[up_axis]), 1);
+  add_pressure(highest, layer_at(last_but_one, centres), std::min(grid.max[up], mesh.max[up_axis]),
+               -1);
+}
+
+}  // namespace bedscope::analysis
