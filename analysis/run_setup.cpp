@@ -46,7 +46,12 @@ class FirstRows {
   readers::Snapshot snapshot_;
 };
 
-void find_time_step(const readers::LiggghtsLog& log, RunSetup& setup) {
+void find_time_step(const readers::LiggghtsLog& log, bool has_steps, RunSetup& setup) {
+  if (!has_steps) {
+    if (setup.settings.time_step)
+      setup.problems.emplace_back("time_step is not used: the snapshots tell their times");
+    return;
+  }
   setup.time_step = setup.settings.time_step;
   if (setup.time_step || !log.time_step) return;
   setup.time_step = log.time_step;
@@ -260,6 +265,13 @@ void set_bubbles(RunSetup& setup) {
     setup.bubble_bands.push_back({height, width, layer_weights(setup, height, width)});
 }
 
+/// Times on disk are sums of steps: 0.3 s may be written 0.29999999999999998 [s].
+double rounding_of(const std::vector<double>& times) {
+  double gap = INFINITY;
+  for (std::size_t i = 1; i < times.size(); ++i) gap = std::min(gap, times[i] - times[i - 1]);
+  return 1e-6 * (std::isfinite(gap) ? gap : std::abs(times.front()));
+}
+
 }  // namespace
 
 void update_times(RunSetup& setup, const readers::Series& series) {
@@ -274,7 +286,10 @@ void update_times(RunSetup& setup, const readers::Series& series) {
   }
   for (std::size_t i = 0; i < series.size() && !std::isnan(series.time(i)); ++i)
     setup.times.push_back(series.time(i));  // some forms store it
-  if (setup.times.size() == series.size()) return;
+  if (setup.times.size() == series.size()) {
+    setup.half_step = rounding_of(setup.times);
+    return;
+  }
   if (settings.time_required)
     throw InputError(
         "run \"{}\": time_step is missing: no log.liggghts beside the dumps tells it; expected "
@@ -295,7 +310,7 @@ RunSetup set_up(const RunSettings& settings, const readers::Series& series) {
   RunSetup setup;
   setup.settings = settings;
   const auto log = readers::find_log(series.path(0));
-  find_time_step(log, setup);
+  find_time_step(log, series.has_steps(), setup);
   update_times(setup, series);
 
   const bool empty = series.parts().empty();  // not one particle in all dumps, and no columns

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "app/commands.hpp"
+#include "app/info_case.hpp"
 #include "app/info_report.hpp"
 #include "app/study.hpp"
 
@@ -19,6 +20,7 @@ struct Options {
 };
 
 void run(const Options& options) {
+  if (info_openfoam(options.path, options.full, options.common.json)) return;
   const auto series = readers::Series::open(options.path);
   const bool one_file = series.files().size() == 1;
   const auto survey = readers::survey(series, options.full || one_file);
@@ -42,7 +44,10 @@ void add_info(CLI::App& app) {
   auto options = std::make_shared<Options>();
   auto* command = app.add_subcommand(
       "info", "a check-up: form, steps, columns, ranges, what is wrong, what analyse would do");
-  command->add_option("path", options->path, "a dump, a folder of dumps, or a pattern")->required();
+  command
+      ->add_option("path", options->path,
+                   "a dump, a folder of dumps, a pattern, or an OpenFOAM case")
+      ->required();
   command->add_flag("--full", options->full, "read the rows of every snapshot");
   command->add_flag("--study", options->study, "print a study file for this run instead");
   add_common(*command, options->common);

@@ -9,11 +9,11 @@
 
 namespace bedscope::readers {
 
-extern const Form liggghts_bin, liggghts_text, vtk_legacy, vtk_xml;
+extern const Form liggghts_bin, liggghts_text, openfoam_cloud, vtk_legacy, vtk_xml;
 
 std::span<const Form* const> forms() {
-  static constexpr std::array<const Form*, 4> all{&liggghts_bin, &liggghts_text, &vtk_legacy,
-                                                  &vtk_xml};
+  static constexpr std::array<const Form*, 5> all{&liggghts_bin, &liggghts_text, &openfoam_cloud,
+                                                  &vtk_legacy, &vtk_xml};
   return all;
 }
 

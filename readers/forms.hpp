@@ -68,6 +68,7 @@ struct Form {
   /// Is it this form? `head` holds the first bytes of the (decompressed) file, at most 4096.
   bool (*matches)(std::string_view head) = nullptr;
   /// Forms that are a folder as a whole (an OpenFOAM case): is this one? null for forms of files.
+  /// Also asked of names that are no folder on disk (a cloud of a case: CASE/kinematicCloud).
   bool (*matches_folder)(const std::string& folder) = nullptr;
 
   /// Finds the snapshots of a file. `thorough` also makes sure that the last one is complete;

@@ -65,8 +65,18 @@ OpenFoamCase OpenFoamCase::open(const std::string& path, const OpenFoamOptions& 
                  fmt::format("{}/{}/{}polyMesh/{}", folder.path, time.name, made->region, name))
                  .empty())
           made->moving = true;
-  made->start = made->read_mesh(0);
-  return OpenFoamCase(std::move(made));
+  if (options.mesh_optional && !made->has_mesh())
+    made->start = std::make_shared<RankedMesh>();
+  else
+    made->start = made->read_mesh(0);
+  OpenFoamCase foam(made);
+  if (made->times.size() == 1) return foam;  // told when the cloud is read
+  if (const auto why = made->why_clouds_are_cut(foam); !why.empty()) {
+    const auto name = made->times.back().name;
+    made->times.pop_back();
+    made->problems.push_back(fmt::format("time {} is left out: {}", name, why));
+  }
+  return foam;
 }
 
 const std::vector<OpenFoamTime>& OpenFoamCase::times() const { return impl_->times; }
@@ -82,6 +92,7 @@ std::shared_ptr<const Mesh> OpenFoamCase::mesh_at(std::size_t time) const {
 const std::vector<std::string>& OpenFoamCase::problems() const { return impl_->problems; }
 const std::vector<std::string>& OpenFoamCase::regions() const { return impl_->regions; }
 std::size_t OpenFoamCase::ranks() const { return impl_->ranks; }
+bool OpenFoamCase::collated() const { return impl_->folders.front().collated; }
 
 std::vector<std::string> OpenFoamCase::files(std::size_t time, std::string_view field) const {
   std::vector<std::string> found;
@@ -104,46 +115,32 @@ void OpenFoamCase::read(std::size_t time, std::string_view field, FieldValues& o
     });
     return;
   }
-  FieldValues part;
-  std::vector<double> value;  // of the first rank, where that is uniform
-  const auto head = [](const FieldValues& from) {
-    return std::vector<double>(
-        from.values.begin(),
-        from.values.begin() + static_cast<std::ptrdiff_t>(
-                                  std::min<std::size_t>(from.values.size(), from.components)));
-  };
-  bool first = true;
+  // All ranks into their places; where the field is uniform, rank by rank, it is as a whole if the
+  // values agree.
+  unsigned components = 0;
+  std::array<double, 7> dimensions{};
+  std::vector<double> value;
+  std::vector<double> piece;
+  std::size_t non_finite = 0;
+  bool uniform = true;
   impl_->for_each_rank(relative, [&](std::size_t rank, FoamBlocks& file) {
-    read_field(file, FoamCount{ranked->cells[rank]}, part);
-    const auto n = part.components;
-    if (first) {
-      out.class_name = part.class_name;
-      out.components = n;
-      out.dimensions = part.dimensions;
-      out.dimensions_known = part.dimensions_known;
-      out.uniform = part.uniform;
-      out.no_header = part.no_header;
-      out.non_finite = {};
-      out.values.resize(ranked->mesh.cells() * n);
-    } else if (n != out.components || part.dimensions != out.dimensions) {
+    const auto& runs = ranked->runs[rank];
+    const FoamPlaces places{runs, ranked->cells[rank], ranked->mesh.cells(), &piece};
+    read_field(file, FoamCount{ranked->cells[rank]}, out, &places);
+    if (rank > 0 && (out.components != components || out.dimensions != dimensions))
       throw FormatError("{}: processor {}: type or dimensions differ from those of processor 0",
                         file.stream().path(), rank);
-    }
-    const auto& address = ranked->address[rank];
-    // Cells follow one another in rows, so rows are copied.
-    for (std::size_t c = 0, next = 0; c < address.size(); c = next) {
-      for (next = c + 1; next < address.size() && address[next] == address[next - 1] + 1;) ++next;
-      std::copy_n(part.values.begin() + static_cast<std::ptrdiff_t>(c * n), (next - c) * n,
-                  out.values.begin() +
-                      static_cast<std::ptrdiff_t>(static_cast<std::size_t>(address[c]) * n));
-    }
-    out.non_finite.values += part.non_finite.values;
-    out.uniform =
-        out.uniform && part.uniform && (first || part.values.empty() || value == head(part));
-    if (first) value = head(part);
-    first = false;
+    components = out.components;
+    dimensions = out.dimensions;
+    non_finite += out.non_finite.values;
+    if (runs.empty()) return;
+    const auto first = out.values.begin() + std::ptrdiff_t{runs[0].place} * components;
+    if (value.empty()) value.assign(first, first + components);
+    uniform = uniform && out.uniform && std::equal(value.begin(), value.end(), first);
   });
-  for (std::size_t c = 0; out.non_finite.values > 0; ++c) {  // there is one
+  out.uniform = uniform;
+  out.non_finite = {non_finite, 0};
+  for (std::size_t c = 0; non_finite > 0; ++c) {  // there is one
     const auto* at = out.values.data() + c * out.components;
     out.non_finite.first = c;
     if (!std::all_of(at, at + out.components, [](double x) { return x - x == 0; })) break;

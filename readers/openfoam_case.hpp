@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,6 +28,8 @@ enum class Decomposition {
 struct OpenFoamOptions {
   Decomposition decomposition = Decomposition::automatic;
   std::string region;  ///< empty: the default region
+  /// A case whose clouds alone are wanted needs no mesh, unless they name its cells.
+  bool mesh_optional = false;
 };
 
 struct OpenFoamTime {
@@ -34,6 +37,12 @@ struct OpenFoamTime {
   double time;                      ///< [s], from uniform/time where that is there
   std::vector<std::string> fields;  ///< fields of cells, in alphabetic order
 };
+
+/// Is the folder a case: does it hold a mesh, ranks, or times with clouds?
+bool is_openfoam_case(const std::string& folder);
+
+/// The regions of a case that have a mesh, "" for the default one.
+std::vector<std::string> openfoam_regions(const std::string& folder);
 
 /// Opening lists the times, reads the mesh and makes sure that the last time is whole. All further
 /// reading is const, thread-safe, and keeps no file open.
@@ -62,8 +71,12 @@ class OpenFoamCase {
   /// The files of a field at a time: one, or one a rank.
   std::vector<std::string> files(std::size_t time, std::string_view field) const;
 
-  /// Lagrangian clouds at a time (kinematicCloud ...); a cloud without parcels may be absent.
+  /// Lagrangian clouds at a time (kinematicCloud ...); a cloud without parcels may be absent. One
+  /// that bears the name of its time (CFDEM in serial) is called particleCloud.
   std::vector<std::string> clouds_at(std::size_t time) const;
+  /// The number of parcels as declared, without reading them. 0 also where the solver has the cloud
+  /// and wrote no parcels; nothing where the time does not know it. Throws FormatError.
+  std::optional<std::size_t> parcels(std::size_t time, std::string_view cloud) const;
   /// The columns of a cloud: x y z, vx vy vz (U or v), its fields by name (vectors as f[1] f[2]
   /// f[3]) and by ours: radius, diameter, id (origId), type (typeId).
   std::vector<std::string> cloud_columns(std::size_t time, std::string_view cloud) const;
@@ -77,6 +90,7 @@ class OpenFoamCase {
   const std::vector<std::string>& problems() const;
   const std::vector<std::string>& regions() const;  ///< besides the default one
   std::size_t ranks() const;                        ///< 1 for a whole case
+  bool collated() const;                            ///< are the ranks in common files?
 
  private:
   explicit OpenFoamCase(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}

@@ -14,8 +14,8 @@ namespace bedscope::readers {
 // A mesh together with where the cells of each rank go.
 struct RankedMesh {
   Mesh mesh;
-  std::vector<std::size_t> cells;                  // of each rank
-  std::vector<std::vector<std::int32_t>> address;  // of each rank's cells in the case
+  std::vector<std::size_t> cells;          // of each rank
+  std::vector<std::vector<FoamRun>> runs;  // of each rank's cells, where they are in the case
 };
 
 struct OpenFoamCase::Impl {
@@ -37,6 +37,7 @@ struct OpenFoamCase::Impl {
     return fmt::format("{}/{}", root, relative);
   }
   std::string time_folder(std::size_t time) const { return times[time].name + "/" + region; }
+  std::string cloud_path(std::size_t time, std::string_view cloud) const;
 
   // The path of a file of a folder; where there is none, the plain name, which Source refuses.
   static std::string path_in(const FoamFolder& folder, const std::string& relative) {
@@ -79,8 +80,10 @@ struct OpenFoamCase::Impl {
   std::string class_of(const std::string& field) const;
   void tell_missing();
   void check_last_time();
+  std::string why_clouds_are_cut(const OpenFoamCase& foam) const;
   std::string mesh_file(const FoamFolder& folder, std::size_t time, std::string_view name) const;
   OpenMeshFile mesh_opener(const FoamFolder& folder, std::size_t block, std::size_t time) const;
+  bool has_mesh() const;
   std::shared_ptr<const RankedMesh> read_mesh(std::size_t time) const;
   std::shared_ptr<const std::vector<CloudMesh>> cloud_meshes(std::size_t time) const;
   void read_addresses(std::size_t time, RankedMesh& mesh) const;

@@ -135,22 +135,27 @@ Row read_binary_row(FoamStream& stream, const FoamLayout& layout, const Record& 
 
 }  // namespace
 
-void read_cloud_points(FoamBlocks& file, const std::function<const CloudMesh&()>& mesh,
-                       CloudPoints& out) {
+std::size_t read_cloud_count(FoamBlocks& file) {
   auto& stream = file.stream();
-  const auto layout = layout_of(file.header(), stream.path());
   const auto token = stream.next();
   std::int64_t count = 0;
   bool overflow = false;
   if (!parse_integer(token.text, count, overflow) || count < 0)
     stream.fail(token.offset, "expected the number of parcels, found \"{}\"", token.text);
-  if (count == 0) return;
   if (static_cast<std::uint64_t>(count) > stream.left() / 8)  // "(0 0 0)0"
     stream.fail_cut("{} parcels declared, the file ends after {} bytes more", count, stream.left());
+  return static_cast<std::size_t>(count);
+}
+
+void read_cloud_points(FoamBlocks& file, const std::function<const CloudMesh&()>& mesh,
+                       CloudPoints& out) {
+  auto& stream = file.stream();
+  const auto layout = layout_of(file.header(), stream.path());
+  const auto count = read_cloud_count(file);
+  if (count == 0) return;
   stream.expect('(', "the number of parcels");
   const auto form = layout.binary ? record_form(stream, layout) : Record{};
-  for (std::int64_t k = 0; k < count; ++k) {
-    const auto index = static_cast<std::size_t>(k);
+  for (std::size_t index = 0; index < count; ++index) {
     const auto row = layout.binary ? read_binary_row(stream, layout, form, index)
                                    : read_ascii_row(stream, index);
     add_row(row, mesh, stream.path(), index, out);

@@ -23,6 +23,10 @@ struct CloudPoints {
   double first_sum = 1;       ///< and its sum
 };
 
+/// The number of parcels that an open file of class Cloud<...> declares; at most what its bytes can
+/// hold.
+std::size_t read_cloud_count(FoamBlocks& file);
+
 /// Adds the positions in an open file of class Cloud<...>. Its name does not tell the form:
 /// `(x y z) cell`, or `(a b c d) cell tetFace tetPt` (also in `positions`, Foundation 5 and later);
 /// in binary records of 3 scalars + 1 label, 4 scalars + 3 labels, or the 40 bytes of old versions.

@@ -149,6 +149,42 @@ std::vector<FoamFolder> find_folders(const std::string& root, Decomposition want
       root);
 }
 
+std::vector<std::string> openfoam_regions(const std::string& folder) {
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) return {};
+  // The ranks have the regions of the whole case, which may have no mesh of its own.
+  auto ranks = find_ranks(folder);
+  std::vector<std::string> roots{folder};
+  if (!ranks.separate.empty()) roots.push_back(ranks.separate.front().path);
+  if (!ranks.collated.empty()) roots.push_back(ranks.collated.begin()->second.front().path);
+  for (const auto& root : roots) {
+    std::vector<std::string> regions;
+    const fs::path constant = root + "/constant";
+    if (!fs::is_directory(constant, error)) continue;
+    if (fs::is_directory(constant / "polyMesh", error)) regions.emplace_back();
+    for (const auto& name : directories(constant.string()))
+      if (fs::is_directory(constant / name / "polyMesh", error)) regions.push_back(name);
+    if (!regions.empty()) return regions;
+  }
+  return {};
+}
+
+bool is_openfoam_case(const std::string& folder) {
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) return false;
+  if (fs::is_regular_file(folder + "/system/controlDict", error)) return true;
+  try {
+    const auto times = time_directories(folder);
+    return !openfoam_regions(folder).empty() ||
+           std::any_of(times.begin(), times.end(), [&](const auto& time) {
+             std::error_code ignored;
+             return fs::is_directory(fmt::format("{}/{}/lagrangian", folder, time.name), ignored);
+           });
+  } catch (const Error&) {
+    return false;
+  }
+}
+
 std::vector<FoamTimeName> time_directories(const std::string& folder) {
   std::vector<FoamTimeName> times;
   for (auto& name : directories(folder)) {

@@ -62,11 +62,15 @@ void read_labels(FoamStream& stream, const FoamLayout& layout, std::vector<std::
               layout.binary);
   make_room(out, stream, opening.count);
   if (!layout.binary) return read_ascii_labels(stream, opening.count, out);
-  const auto done = [](std::size_t) {};
+  const auto room = [&out](std::size_t more) {
+    out.resize(out.size() + more);
+    return out.data() + (out.size() - more);
+  };
+  const auto take = [](std::size_t) {};
   if (layout.label_bytes == 4)
-    read_binary<std::int32_t>(stream, layout, opening.count, 1, out, done);
+    read_binary<std::int32_t, std::int32_t>(stream, layout, opening.count, 1, room, take);
   else
-    read_binary<std::int64_t>(stream, layout, opening.count, 1, out, done);
+    read_binary<std::int64_t, std::int32_t>(stream, layout, opening.count, 1, room, take);
   close_binary(stream, layout, opening.count * layout.label_bytes);
 }
 

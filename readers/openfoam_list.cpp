@@ -7,6 +7,7 @@
 
 #include "readers/openfoam_list_parts.hpp"
 #include "readers/openfoam_numbers.hpp"
+#include "readers/processor.hpp"
 
 namespace bedscope::readers {
 
@@ -69,7 +70,7 @@ namespace {
 
 using namespace detail;
 
-std::size_t count_non_finite(const double* values, std::size_t count) {
+BEDSCOPE_FOR_EACH_PROCESSOR std::size_t count_non_finite(const double* values, std::size_t count) {
   constexpr std::uint64_t exponent = 0x7ff0000000000000;
   std::size_t found = 0;
   for (std::size_t i = 0; i < count; ++i)
@@ -77,15 +78,89 @@ std::size_t count_non_finite(const double* values, std::size_t count) {
   return found;
 }
 
-// Adds what out[from...] holds to the count, in values of `components` numbers.
-void note_non_finite(const std::vector<double>& out, std::size_t from, unsigned components,
-                     NonFinite& seen) {
-  if (count_non_finite(out.data() + from, out.size() - from) == 0) return;
-  for (std::size_t value = from / components; value < out.size() / components; ++value) {
-    if (count_non_finite(out.data() + value * components, components) == 0) continue;
-    if (seen.values++ == 0) seen.first = value;
+// Takes the values of a list piece by piece: one behind the other, or each to its place. What is
+// not finite is counted while a piece is still in the cache.
+class Sink {
+ public:
+  Sink(std::vector<double>& out, unsigned components, const FoamPlaces* places)
+      : out_(out), components_(components), places_(places) {
+    if (places != nullptr) out.resize(places->size * components);
   }
-}
+
+  // So many may come (`sure`: will, if the file is not cut). Numbers of the list before are
+  // overwritten, not cleared: that costs as much as reading.
+  void expect(std::uint64_t numbers, bool sure) {
+    if (places_ != nullptr) return;
+    if (sure)
+      out_.resize(static_cast<std::size_t>(numbers));
+    else
+      out_.reserve(static_cast<std::size_t>(numbers));
+  }
+
+  double* room(std::size_t numbers) {
+    if (places_ != nullptr) {
+      if (places_->piece->size() < numbers) places_->piece->resize(numbers);
+      return places_->piece->data();
+    }
+    if (out_.size() < taken_ + numbers) out_.resize(taken_ + numbers);
+    return out_.data() + taken_;
+  }
+
+  void take(std::size_t numbers) {
+    const double* const from = places_ != nullptr ? places_->piece->data() : out_.data() + taken_;
+    if (count_non_finite(from, numbers) > 0) note_non_finite(from, numbers);
+    if (places_ != nullptr) put(from, numbers / components_);
+    taken_ += numbers;
+  }
+
+  std::size_t values() const { return taken_ / components_; }
+  bool full() const { return places_ != nullptr && values() == places_->count; }
+
+  NonFinite finish() {
+    if (places_ == nullptr) out_.resize(taken_);
+    return seen_;
+  }
+
+ private:
+  static constexpr std::size_t rows_ahead = 4, line = 64 / sizeof(double);
+
+  void note_non_finite(const double* from, std::size_t numbers) {
+    for (std::size_t value = 0; value < numbers / components_; ++value) {
+      if (count_non_finite(from + value * components_, components_) == 0) continue;
+      if (seen_.values++ == 0) seen_.first = values() + value;
+    }
+  }
+
+  void put(const double* from, std::size_t count) {
+    while (count > 0) {
+      // The processor fetches ahead within a row; where the next ones begin it must be told. (In
+      // a function of its own GCC 12 drops this, as it has no effect.)
+      if (run_ + rows_ahead < places_->runs.size()) {
+        const auto& later = places_->runs[run_ + rows_ahead];
+        const double* at = out_.data() + static_cast<std::size_t>(later.place) * components_;
+        const double* const end = at + static_cast<std::size_t>(later.count) * components_;
+        for (; at < end; at += line) __builtin_prefetch(at, 1);
+      }
+      const auto& run = places_->runs[run_];
+      const auto now = std::min(count, static_cast<std::size_t>(run.count) - of_run_);
+      const auto to = static_cast<std::size_t>(run.place) + of_run_;
+      std::copy_n(from, now * components_, out_.data() + to * components_);
+      from += now * components_;
+      count -= now;
+      of_run_ += now;
+      if (of_run_ < static_cast<std::size_t>(run.count)) continue;
+      ++run_;
+      of_run_ = 0;
+    }
+  }
+
+  std::vector<double>& out_;
+  unsigned components_;
+  const FoamPlaces* places_;
+  std::size_t taken_ = 0;             // numbers
+  std::size_t run_ = 0, of_run_ = 0;  // where the next value goes
+  NonFinite seen_;
+};
 
 // One value at `p`; false where it is none or not all of it is there.
 bool parse_value(const char*& p, const char* end, const FoamType& type, double* into) {
@@ -123,17 +198,16 @@ void parse_value_slowly(FoamStream& stream, const FoamType& type, double* into, 
 }
 
 // Values up to `count`, or up to the closing parenthesis where the list has no count.
-void read_ascii(FoamStream& stream, const FoamType& type, Opening opening, std::vector<double>& out,
-                NonFinite& seen) {
+void read_ascii(FoamStream& stream, const FoamType& type, Opening opening, Sink& sink) {
   constexpr std::size_t step = 4096;  // values in one go: at most 300 kB of numbers
   const bool counted = opening.form == Opening::Form::parenthesis;
   const auto total = counted ? opening.count : std::numeric_limits<std::uint64_t>::max();
   for (std::uint64_t done = 0; done < total;) {
     if (!counted && stream.peek() == ')') break;
+    if (!counted && sink.full()) break;  // and fail at the parenthesis
     const auto now = counted ? std::min<std::uint64_t>(step, total - done) : 1;
-    const auto from = out.size();
-    out.resize(from + static_cast<std::size_t>(now) * type.components);
-    double* into = out.data() + from;
+    const auto numbers = static_cast<std::size_t>(now) * type.components;
+    double* into = sink.room(numbers);
     for (std::uint64_t k = 0; k < now; ++k, into += type.components) {
       const char* p = stream.at();
       if (parse_value(p, stream.end(), type, into)) {
@@ -145,27 +219,29 @@ void read_ascii(FoamStream& stream, const FoamType& type, Opening opening, std::
         parse_value_slowly(stream, type, into, done + k, counted ? total : done + k + 1);
       }
     }
-    note_non_finite(out, from, type.components, seen);
+    sink.take(numbers);
     done += now;
   }
   if (!stream.take(')')) {
     if (stream.peek() == '\0' && stream.at() == stream.end())
       stream.fail_cut("{} values declared, end of file before \")\"", total);
-    stream.fail(stream.offset(), "expected \")\" after {} values, found {}", total, stream.found());
+    stream.fail(stream.offset(), "expected \")\" after {} values, found {}", sink.values(),
+                stream.found());
   }
 }
 
 void read_uniform(FoamStream& stream, const FoamType& type, Opening opening,
-                  std::optional<FoamCount> expected, std::vector<double>& out, NonFinite& seen) {
+                  std::optional<FoamCount> expected, Sink& sink) {
   std::array<double, 9> value{};
   parse_value_slowly(stream, type, value.data(), 0, 1);
   stream.expect('}', "the value of a uniform list");
   if (!expected)
     stream.fail(stream.offset(), "a uniform list of {} values where their number is not known",
                 opening.count);
-  out.resize(static_cast<std::size_t>(opening.count) * type.components);
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] = value[i % type.components];
-  note_non_finite(out, 0, type.components, seen);
+  const auto numbers = static_cast<std::size_t>(opening.count) * type.components;
+  double* const into = sink.room(numbers);
+  for (std::size_t i = 0; i < numbers; ++i) into[i] = value[i % type.components];
+  sink.take(numbers);
 }
 
 // Passes over numbers in an open bracket, up to the one that closes it.
@@ -211,44 +287,44 @@ FoamLayout layout_of(const FoamHeader& header, const std::string& where) {
 }
 
 NonFinite read_values(FoamStream& stream, const FoamLayout& layout, const FoamType& type,
-                      std::optional<FoamCount> expected, std::vector<double>& out) {
-  out.clear();
-  NonFinite seen;
+                      std::optional<FoamCount> expected, std::vector<double>& out,
+                      const FoamPlaces* places) {
+  if (places != nullptr) expected = FoamCount{places->count};
+  Sink sink(out, type.components, places);
   const auto opening = read_opening(stream, layout);
   if (opening.form != Opening::Form::uncounted) check_expected(stream, opening.count, expected);
   switch (opening.form) {
     case Opening::Form::empty:
       break;
     case Opening::Form::uniform:
-      read_uniform(stream, type, opening, expected, out, seen);
+      read_uniform(stream, type, opening, expected, sink);
       break;
     case Opening::Form::uncounted:
-      read_ascii(stream, type, opening, out, seen);
+      read_ascii(stream, type, opening, sink);
       break;
     case Opening::Form::parenthesis: {
       const std::uint64_t least =
           std::uint64_t{type.components} * (layout.binary ? layout.scalar_bytes : 2);
       check_claim(stream, opening.count, least, type.name, layout.binary);
-      make_room(out, stream, opening.count * type.components);
+      const auto count = opening.count * type.components;
+      if (!stream.compressed()) sink.expect(count, layout.binary);
       if (!layout.binary) {
-        read_ascii(stream, type, opening, out, seen);
+        read_ascii(stream, type, opening, sink);
         break;
       }
-      const auto count = opening.count * type.components;
-      const auto check = [&](std::size_t from) {
-        note_non_finite(out, from, type.components, seen);
-      };
+      const auto room = [&](std::size_t numbers) { return sink.room(numbers); };
+      const auto take = [&](std::size_t numbers) { sink.take(numbers); };
       if (layout.scalar_bytes == 8)
-        read_binary<double>(stream, layout, count, type.components, out, check);
+        read_binary<double, double>(stream, layout, count, type.components, room, take);
       else
-        read_binary<float>(stream, layout, count, type.components, out, check);
+        read_binary<float, double>(stream, layout, count, type.components, room, take);
       close_binary(stream, layout, count * layout.scalar_bytes);
     }
   }
-  if (expected && out.size() / type.components != expected->count)
-    stream.fail(stream.offset(), "list holds {} values, {} has {} {}", out.size() / type.components,
+  if (expected && sink.values() != expected->count)
+    stream.fail(stream.offset(), "list holds {} values, {} has {} {}", sink.values(),
                 expected->whole, expected->count, expected->parts);
-  return seen;
+  return sink.finish();
 }
 
 void skip_list(FoamStream& stream, const FoamLayout& layout, std::string_view list_type) {

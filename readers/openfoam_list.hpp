@@ -54,11 +54,28 @@ struct NonFinite {
   std::size_t first = 0;  ///< index of the first value (cell) with one
 };
 
-/// Reads a list of scalars, vectors ... into `out`, components of a value together. A count is a
-/// claim: nothing is allocated that the file (or `expected`) cannot fill.
-/// Throws FormatError naming line or offset, CutError where the file ends inside.
+/// Values that follow one another in a list and in the longer one where they belong.
+struct FoamRun {
+  std::int32_t place;  ///< of the first
+  std::int32_t count;
+};
+
+/// Where the values of a list belong in one of `size` values; all runs end within it. Runs, since
+/// cells of a rank come in rows: to copy these costs a third of putting each value to its place.
+struct FoamPlaces {
+  std::span<const FoamRun> runs;
+  std::size_t count = 0;  ///< values of all runs
+  std::size_t size = 0;
+  std::vector<double>* piece = nullptr;  ///< memory on the way there, kept from list to list
+};
+
+/// Reads a list of scalars, vectors ... into `out`, components of a value together; with `places`
+/// into those of `out`, whose others are left as they are (and `expected` is their count). A count
+/// is a claim: nothing is allocated that the file (or `expected`) cannot fill. Throws FormatError
+/// naming line or offset, CutError where the file ends inside.
 NonFinite read_values(FoamStream& stream, const FoamLayout& layout, const FoamType& type,
-                      std::optional<FoamCount> expected, std::vector<double>& out);
+                      std::optional<FoamCount> expected, std::vector<double>& out,
+                      const FoamPlaces* places = nullptr);
 
 /// Reads a list of labels.
 void read_labels(FoamStream& stream, const FoamLayout& layout, std::vector<std::int32_t>& out,

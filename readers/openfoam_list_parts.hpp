@@ -55,35 +55,35 @@ T swapped(T value) {
   return value;
 }
 
-// `count` numbers of the type File on disk, in pieces of whole values.
-template <class File, class T, class Done>
+// `count` numbers of the type File on disk, in pieces of whole values: room(n) gives where the next
+// n go, take(n) is told when they are there.
+template <class File, class T, class Room, class Take>
 void read_binary(FoamStream& stream, const FoamLayout& layout, std::uint64_t count,
-                 std::size_t components, std::vector<T>& out, Done&& done) {
+                 std::size_t components, Room&& room, Take&& take) {
   std::vector<File> piece;
   const std::size_t step = piece_bytes / sizeof(File) / components * components;
   const bool swap = layout.big_endian != (std::endian::native == std::endian::big);
   while (count > 0) {
     const auto now = static_cast<std::size_t>(std::min<std::uint64_t>(count, step));
-    const auto from = out.size();
-    out.resize(from + now);
+    T* const into = room(now);
     std::size_t got = 0;
     if constexpr (std::is_same_v<File, T>) {
-      got = stream.read({reinterpret_cast<char*>(out.data() + from), now * sizeof(T)});
-      if (swap) std::transform(out.begin() + from, out.end(), out.begin() + from, swapped<T>);
+      got = stream.read({reinterpret_cast<char*>(into), now * sizeof(T)});
+      if (swap) std::transform(into, into + now, into, swapped<T>);
     } else {
       piece.resize(now);
       got = stream.read({reinterpret_cast<char*>(piece.data()), now * sizeof(File)});
       for (std::size_t i = 0; i < now; ++i) {
         const File value = swap ? swapped(piece[i]) : piece[i];
-        out[from + i] = static_cast<T>(value);
+        into[i] = static_cast<T>(value);
         if constexpr (std::is_integral_v<T>)
-          if (out[from + i] != value) stream.fail_binary("label {} does not fit in 32 bits", value);
+          if (into[i] != value) stream.fail_binary("label {} does not fit in 32 bits", value);
       }
     }
     if (got < now * sizeof(File))
       stream.fail_cut("the file ends inside a binary list, {} numbers before its end",
                       count - got / sizeof(File));
-    done(from);
+    take(now);
     count -= now;
   }
 }

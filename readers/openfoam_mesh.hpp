@@ -69,6 +69,9 @@ struct Mesh {
   std::optional<BoxCells> boxes;  ///< where every cell is a box along the axes
   std::vector<Point> extents;     ///< of the box around each cell [m], where they are not boxes
   Point min{}, max{};             ///< of all points [m]
+  /// Patches of all ranks together; those between ranks are left out, and `start` is of the rank
+  /// that names the patch first.
+  std::vector<FoamPatch> patches;
 
   std::size_t cells() const { return volumes.size(); }
   double volume() const;  ///< of all cells [m3]

@@ -49,6 +49,9 @@ std::string cloud_folder(const OpenFoamCase::Impl& impl, const std::string& rela
   return {};
 }
 
+// CFDEM in serial names the folder of the cloud after its time: 0.05/lagrangian/0.05.
+constexpr std::string_view serial_cloud = "particleCloud";
+
 std::vector<CloudColumn> columns_of(const OpenFoamCase::Impl& impl, const std::string& relative) {
   std::vector<CloudColumn> columns{{"x", "", 0}, {"y", "", 1}, {"z", "", 2}};
   const auto folder = cloud_folder(impl, relative);
@@ -65,6 +68,12 @@ std::vector<CloudColumn> columns_of(const OpenFoamCase::Impl& impl, const std::s
     if (file.next()) add_columns(name, file.header().class_name, columns);
   }
   return columns;
+}
+
+// Where the parcels of a folder are; empty where its ranks have none.
+std::string points_file(const FoamFolder& folder, const std::string& relative) {
+  const auto path = plain_or_gz(folder.path + "/" + relative + "/coordinates");
+  return path.empty() ? plain_or_gz(folder.path + "/" + relative + "/positions") : path;
 }
 
 // A field of the cloud, the values of all ranks behind one another.
@@ -101,6 +110,13 @@ std::vector<double> read_cloud_field(const OpenFoamCase::Impl& impl, const std::
 
 }  // namespace
 
+std::string OpenFoamCase::Impl::cloud_path(std::size_t time, std::string_view cloud) const {
+  const auto path = time_folder(time) + "lagrangian/";
+  auto by_time = path + times[time].name;
+  if (cloud == serial_cloud && !cloud_folder(*this, by_time).empty()) return by_time;
+  return path + std::string(cloud);
+}
+
 std::vector<std::string> OpenFoamCase::clouds_at(std::size_t time) const {
   std::vector<std::string> names;
   for (const auto& folder : impl_->folders) {
@@ -110,8 +126,8 @@ std::vector<std::string> OpenFoamCase::clouds_at(std::size_t time) const {
          !error && entry != fs::directory_iterator(); entry.increment(error)) {
       auto name = entry->path().filename().string();
       // Ghost parcels of neighbouring processors.
-      if (name != "referredParticleCloud" && fs::is_directory(entry->path(), error))
-        names.push_back(std::move(name));
+      if (name == "referredParticleCloud" || !fs::is_directory(entry->path(), error)) continue;
+      names.push_back(name == impl_->times[time].name ? std::string(serial_cloud) : name);
     }
   }
   std::sort(names.begin(), names.end());
@@ -119,18 +135,34 @@ std::vector<std::string> OpenFoamCase::clouds_at(std::size_t time) const {
   return names;
 }
 
+std::optional<std::size_t> OpenFoamCase::parcels(std::size_t time, std::string_view cloud) const {
+  const auto relative = impl_->cloud_path(time, cloud);
+  std::optional<std::size_t> sum;
+  for (const auto& folder : impl_->folders) {
+    // What the solver keeps of a cloud from run to run, parcels or not.
+    const auto state = fmt::format("{}/{}uniform/lagrangian/{}/cloudProperties", folder.path,
+                                   impl_->time_folder(time), cloud);
+    if (!plain_or_gz(state).empty()) sum = sum.value_or(0);
+    const auto path = points_file(folder, relative);
+    if (path.empty()) continue;
+    Impl::for_ranks_of(folder, path, [&](std::size_t, FoamBlocks& file) {
+      sum = sum.value_or(0) + read_cloud_count(file);
+    });
+  }
+  return sum;
+}
+
 std::vector<std::string> OpenFoamCase::cloud_columns(std::size_t time,
                                                      std::string_view cloud) const {
   std::vector<std::string> names;
-  for (const auto& column :
-       columns_of(*impl_, fmt::format("{}lagrangian/{}", impl_->time_folder(time), cloud)))
+  for (const auto& column : columns_of(*impl_, impl_->cloud_path(time, cloud)))
     names.push_back(column.name);
   return names;
 }
 
 std::vector<std::string> OpenFoamCase::read_cloud(std::size_t time, std::string_view cloud,
                                                   const Request& request, Snapshot& out) const {
-  const auto relative = fmt::format("{}lagrangian/{}", impl_->time_folder(time), cloud);
+  const auto relative = impl_->cloud_path(time, cloud);
   const auto where = impl_->shown(relative);
   if (cloud_folder(*impl_, relative).empty())
     throw InputError("{}: no such cloud, found {}", where, fmt::join(clouds_at(time), ", "));
@@ -144,9 +176,8 @@ std::vector<std::string> OpenFoamCase::read_cloud(std::size_t time, std::string_
   std::vector<std::size_t> parcels(impl_->ranks);
   std::shared_ptr<const std::vector<CloudMesh>> meshes;
   for (const auto& folder : impl_->folders) {
-    auto path = plain_or_gz(folder.path + "/" + relative + "/coordinates");
-    if (path.empty()) path = plain_or_gz(folder.path + "/" + relative + "/positions");
-    if (path.empty()) continue;  // this rank has no parcels
+    const auto path = points_file(folder, relative);
+    if (path.empty()) continue;
     Impl::for_ranks_of(folder, path, [&](std::size_t rank, FoamBlocks& file) {
       const auto before = points.at.size();
       const auto mesh = [&]() -> const CloudMesh& {

@@ -5,6 +5,21 @@
 #include "readers/openfoam_case_impl.hpp"
 
 namespace bedscope::readers {
+namespace {
+
+void add_patches(const std::vector<FoamPatch>& of_rank, std::vector<FoamPatch>& all) {
+  for (const auto& patch : of_rank) {
+    if (patch.type.starts_with("processor")) continue;
+    const auto same = std::find_if(all.begin(), all.end(),
+                                   [&](const auto& other) { return other.name == patch.name; });
+    if (same == all.end())
+      all.push_back(patch);
+    else
+      same->faces += patch.faces;
+  }
+}
+
+}  // namespace
 
 // The newest file of a mesh at or before a time: times with points of their own move the mesh.
 std::string OpenFoamCase::Impl::mesh_file(const FoamFolder& folder, std::size_t time,
@@ -17,11 +32,16 @@ std::string OpenFoamCase::Impl::mesh_file(const FoamFolder& folder, std::size_t 
   return plain_or_gz(fmt::format("{}/constant/{}", folder.path, file));
 }
 
+bool OpenFoamCase::Impl::has_mesh() const {
+  return !mesh_file(folders.front(), times.size() - 1, "points").empty();
+}
+
 void OpenFoamCase::Impl::read_addresses(std::size_t time, RankedMesh& mesh) const {
   std::size_t total = 0, with = 0;
   for (const auto cells : mesh.cells) total += cells;
   std::vector<bool> taken(total);
-  mesh.address.resize(ranks);
+  mesh.runs.resize(ranks);
+  std::vector<std::int32_t> address;
   for (const auto& folder : folders) {
     const auto path = mesh_file(folder, time, "cellProcAddressing");
     if (path.empty()) continue;
@@ -29,7 +49,6 @@ void OpenFoamCase::Impl::read_addresses(std::size_t time, RankedMesh& mesh) cons
     for (std::size_t k = 0; k < folder.ranks; ++k, ++with) {
       const auto rank = folder.first_rank + k;
       if (!file.next()) throw CutError("{}: expected {} blocks, found {}", path, folder.ranks, k);
-      auto& address = mesh.address[rank];
       read_labels(file.stream(), layout_of(file.header(), path), address);
       if (address.size() != mesh.cells[rank])
         throw FormatError("{}: processor {}: {} cells, its mesh has {}", path, rank, address.size(),
@@ -42,6 +61,11 @@ void OpenFoamCase::Impl::read_addresses(std::size_t time, RankedMesh& mesh) cons
         if (taken[static_cast<std::size_t>(cell)])
           throw FormatError("{}: processor {} names cell {} a second time", path, rank, cell);
         taken[static_cast<std::size_t>(cell)] = true;
+        auto& runs = mesh.runs[rank];
+        if (!runs.empty() && runs.back().place + runs.back().count == cell)
+          ++runs.back().count;
+        else
+          runs.push_back({cell, 1});
       }
     }
   }
@@ -50,8 +74,11 @@ void OpenFoamCase::Impl::read_addresses(std::size_t time, RankedMesh& mesh) cons
                       with);
   if (with > 0) return;
   std::int32_t next = 0;  // rank after rank, the mesh and the fields alike
-  for (std::size_t rank = 0; rank < ranks; ++rank)
-    for (std::size_t c = 0; c < mesh.cells[rank]; ++c) mesh.address[rank].push_back(next++);
+  for (std::size_t rank = 0; rank < ranks; ++rank) {
+    const auto cells = static_cast<std::int32_t>(mesh.cells[rank]);
+    if (cells > 0) mesh.runs[rank].push_back({next, cells});
+    next += cells;
+  }
 }
 
 OpenMeshFile OpenFoamCase::Impl::mesh_opener(const FoamFolder& folder, std::size_t block,
@@ -86,14 +113,18 @@ std::shared_ptr<const std::vector<CloudMesh>> OpenFoamCase::Impl::cloud_meshes(
 std::shared_ptr<const RankedMesh> OpenFoamCase::Impl::read_mesh(std::size_t time) const {
   auto made = std::make_shared<RankedMesh>();
   std::vector<CellGeometry> parts(ranks);
+  std::vector<FoamPatch> patches;
   for (const auto& folder : folders) {
     for (std::size_t k = 0; k < folder.ranks; ++k) {
-      parts[folder.first_rank + k] = cell_geometry(read_poly_mesh(mesh_opener(folder, k, time)));
+      const auto poly = read_poly_mesh(mesh_opener(folder, k, time));
+      parts[folder.first_rank + k] = cell_geometry(poly);
+      add_patches(poly.patches, patches);
     }
   }
   for (const auto& part : parts) made->cells.push_back(part.volumes.size());
   if (ranks == 1) {
     made->mesh = make_mesh(std::move(parts.front()));
+    made->mesh.patches = std::move(patches);
     return made;
   }
   read_addresses(time, *made);
@@ -104,15 +135,21 @@ std::shared_ptr<const RankedMesh> OpenFoamCase::Impl::read_mesh(std::size_t time
   all.volumes.resize(total);
   all.low.resize(total);
   all.high.resize(total);
-  for (std::size_t rank = 0; rank < ranks; ++rank)
-    for (std::size_t c = 0; c < made->cells[rank]; ++c) {
-      const auto cell = static_cast<std::size_t>(made->address[rank][c]);
-      all.centres[cell] = parts[rank].centres[c];
-      all.volumes[cell] = parts[rank].volumes[c];
-      all.low[cell] = parts[rank].low[c];
-      all.high[cell] = parts[rank].high[c];
+  for (std::size_t rank = 0; rank < ranks; ++rank) {
+    std::ptrdiff_t from = 0;
+    for (const auto& run : made->runs[rank]) {
+      const auto put = [&](const auto& part, auto& whole) {
+        std::copy_n(part.begin() + from, run.count, whole.begin() + run.place);
+      };
+      put(parts[rank].centres, all.centres);
+      put(parts[rank].volumes, all.volumes);
+      put(parts[rank].low, all.low);
+      put(parts[rank].high, all.high);
+      from += run.count;
     }
+  }
   made->mesh = make_mesh(std::move(all));
+  made->mesh.patches = std::move(patches);
   return made;
 }
 

@@ -160,4 +160,38 @@ void OpenFoamCase::Impl::check_last_time() {
   }
 }
 
+// The same for its clouds: a file that is cut, or one that the time before has and this one lacks.
+std::string OpenFoamCase::Impl::why_clouds_are_cut(const OpenFoamCase& foam) const {
+  const auto last = times.size() - 1;
+  Snapshot unused;
+  for (const auto& cloud : foam.clouds_at(last)) try {
+      const auto here = foam.cloud_columns(last, cloud);
+      const auto before = foam.parcels(last - 1, cloud).value_or(0) > 0
+                              ? foam.cloud_columns(last - 1, cloud)
+                              : here;
+      if (foam.parcels(last, cloud).value_or(0) == 0) continue;
+      for (const auto& column : before)
+        if (std::count(here.begin(), here.end(), column) == 0)
+          return fmt::format("{}: {} is missing", shown(cloud_path(last, cloud)), column);
+      const auto sound = [&](const FoamFolder& folder) {
+        std::error_code error;
+        auto entry = fs::directory_iterator(folder.path + "/" + cloud_path(last, cloud), error);
+        for (; !error && entry != fs::directory_iterator(); entry.increment(error))
+          if (folder.collated || !has_footer(entry->path().string())) return false;
+        return true;
+      };
+      if (std::all_of(folders.begin(), folders.end(), sound)) continue;
+      Request all;
+      for (const auto& column : here) all.push_back({column});
+      foam.read_cloud(last, cloud, all, unused);
+    } catch (const CutError& error) {
+      return error.what();
+    } catch (const FileError& error) {  // another rank has it
+      return error.what();
+    } catch (const Error&) {
+      // Told when the cloud is read.
+    }
+  return {};
+}
+
 }  // namespace bedscope::readers

@@ -12,6 +12,8 @@ namespace {
 
 constexpr std::size_t sample = 10;
 
+}  // namespace
+
 std::vector<std::size_t> chosen_snapshots(std::size_t count, bool full) {
   std::vector<std::size_t> chosen;
   const std::size_t picks = full ? count : std::min(count, sample);
@@ -19,6 +21,8 @@ std::vector<std::size_t> chosen_snapshots(std::size_t count, bool full) {
     chosen.push_back(picks == 1 ? 0 : k * (count - 1) / (picks - 1));
   return chosen;
 }
+
+namespace {
 
 bool contains(const std::vector<std::string>& names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();

@@ -95,6 +95,9 @@ struct Survey {
   const ColumnSurvey* column(const std::string& name) const;
 };
 
+/// The first of `count` snapshots, the last and eight between, or all (`full`), ascending.
+std::vector<std::size_t> chosen_snapshots(std::size_t count, bool full);
+
 /// Reads the rows of the first, the last and eight snapshots between, or of all (`full`); every
 /// column once; of none where nobody named the columns. Overlaps are looked for in the first, the
 /// middle and the last of those.

@@ -311,20 +311,20 @@ TEST_F(Resume, BubblesAndBedHeight) {
 
 TEST_F(Resume, OneFilePerProcessor) {
   const auto add_pieces = [&](std::int64_t step) {
-    const auto text = dump(step, 300);
+    const auto text = dump(step, 96);
     const auto body = text.find("q \n") + 3;
     auto middle = body;
-    for (int row = 0; row < 120; ++row) middle = text.find('\n', middle) + 1;
+    for (int row = 0; row < 40; ++row) middle = text.find('\n', middle) + 1;
     const auto head = [&](const char* count) {
-      return readers::replaced(text.substr(0, body), "ATOMS\n300", fmt::format("ATOMS\n{}", count));
+      return readers::replaced(text.substr(0, body), "ATOMS\n96", fmt::format("ATOMS\n{}", count));
     };
     folder.write(fmt::format("post/dump{}.liggghts_0", step),
-                 head("120") + text.substr(body, middle - body));
-    folder.write(fmt::format("post/dump{}.liggghts_1", step), head("180") + text.substr(middle));
+                 head("40") + text.substr(body, middle - body));
+    folder.write(fmt::format("post/dump{}.liggghts_1", step), head("56") + text.substr(middle));
   };
   for (int step = 0; step < 900; step += 100) add_pieces(step);
   expect_the_same(0);
-  EXPECT_EQ(analyse_run(settings, keeping()).inventory.front().particles, 300);
+  EXPECT_EQ(analyse_run(settings, keeping()).inventory.front().particles, 96);
   add_pieces(900);
   expect_the_same(8);
   add_pieces(300);  // written again, both of them; then one

@@ -112,8 +112,8 @@ TEST(OpenFoamField, ErrorsNameLineExpectedAndFound) {
             ": line 4: expected \"{\" after boundaryField, found \"top\"");
   EXPECT_EQ(message("internalField uniform 1;\n"),
             ": line 3: expected boundaryField, found end of file");
-  EXPECT_EQ(message("a 1;\n", "surfaceScalarField"),
-            ": expected a field of cells (volScalarField ...), found class surfaceScalarField");
+  EXPECT_EQ(message("a 1;\n", "dictionary"),
+            ": expected a field (volScalarField ...), found class dictionary");
 }
 
 TEST(OpenFoamField, BinaryListsOfTheBoundaryAreSteppedOver) {

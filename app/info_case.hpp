@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// bedscope info of what OpenFOAM wrote: a case, or one of its files.
+#pragma once
+
+#include <string>
+
+namespace bedscope::app {
+
+/// Prints what the path holds and returns true, where it is a case or a file of OpenFOAM.
+/// `full`: the values of all times, not of ten of them.
+bool info_openfoam(const std::string& path, bool full, bool json);
+
+}  // namespace bedscope::app

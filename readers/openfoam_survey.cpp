@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "readers/openfoam_survey.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "readers/survey.hpp"
+
+namespace bedscope::readers {
+namespace {
+
+class Surveyor {
+ public:
+  explicit Surveyor(const OpenFoamCase& foam) : foam_(foam) { found_.problems = foam.problems(); }
+
+  void count_times() {
+    for (std::size_t t = 0; t < foam_.times().size(); ++t) {
+      for (const auto& name : foam_.fields_at(t)) ++fields_[name].times;
+      for (const auto& name : foam_.clouds_at(t)) {
+        const auto parcels = foam_.parcels(t, name).value_or(0);
+        auto& cloud = clouds_[name];
+        cloud.parcels[0] = cloud.times == 0 ? parcels : std::min(cloud.parcels[0], parcels);
+        cloud.parcels[1] = std::max(cloud.parcels[1], parcels);
+        ++cloud.times;
+      }
+    }
+  }
+
+  void read(std::size_t time) {
+    ++found_.times_read;
+    for (const auto& name : foam_.fields_at(time)) add_field(time, name);
+    for (const auto& name : foam_.clouds_at(time)) add_cloud(time, name);
+  }
+
+  FoamSurvey finish() {
+    for (auto& [name, field] : fields_) {
+      field.name = name;
+      if (field.non_finite > 0)
+        found_.problems.push_back(fmt::format("{}; {} in all times read: left out of the ranges",
+                                              first_non_finite_[name], field.non_finite));
+      found_.fields.push_back(std::move(field));
+    }
+    for (auto& [name, cloud] : clouds_) {
+      cloud.name = name;
+      found_.clouds.push_back(std::move(cloud));
+    }
+    return std::move(found_);
+  }
+
+ private:
+  void add_field(std::size_t time, const std::string& name) {
+    auto& field = fields_[name];
+    try {
+      foam_.read(time, name, values_);
+    } catch (const CodeError& error) {  // the start of a case that was never run
+      found_.problems.emplace_back(error.what());
+      return;
+    }
+    ++field.times_read;
+    if (values_.uniform) ++field.times_uniform;
+    field.class_name = values_.class_name;
+    field.dimensions = values_.dimensions;
+    field.dimensions_known = values_.dimensions_known;
+    field.ranges.resize(values_.components);
+    add_to_ranges(values_.values, field.ranges);
+    if (values_.non_finite.values > 0 && field.non_finite == 0)
+      first_non_finite_[name] = fmt::format("{}: time {}: cell {} is nan or inf", name,
+                                            foam_.times()[time].name, values_.non_finite.first);
+    field.non_finite += values_.non_finite.values;
+    if (!values_.uniform)
+      found_.format =
+          fmt::format("{}{}", values_.binary ? "binary" : "ascii", values_.compressed ? " gz" : "");
+  }
+
+  void add_cloud(std::size_t time, const std::string& name) {
+    auto& cloud = clouds_[name];
+    const auto columns = foam_.cloud_columns(time, name);
+    if (columns.size() >= cloud.columns.size()) cloud.columns = columns;
+    for (auto& problem : foam_.read_cloud(
+             time, name, {{"x"}, {"y"}, {"z"}, {"radius", false}, {"nParticle", false}}, snapshot_))
+      found_.problems.push_back(std::move(problem));
+    for (std::size_t k = 0; k < 5; ++k)
+      for (const double value : snapshot_.columns[k])
+        (k < 3 ? cloud.centres[k] : k == 3 ? cloud.radius : cloud.particles).add(value);
+  }
+
+  const OpenFoamCase& foam_;
+  FoamSurvey found_;
+  std::map<std::string, FoamFieldSurvey> fields_;
+  std::map<std::string, std::string> first_non_finite_;
+  std::map<std::string, FoamCloudSurvey> clouds_;
+  FieldValues values_;
+  Snapshot snapshot_;
+};
+
+}  // namespace
+
+void FoamRange::add(double value) {
+  if (!std::isfinite(value)) return;
+  min = std::min(min, value);
+  max = std::max(max, value);
+  sum += value;
+  ++count;
+}
+
+void add_to_ranges(const std::vector<double>& values, std::vector<FoamRange>& ranges) {
+  for (std::size_t i = 0; i < values.size(); ++i) ranges[i % ranges.size()].add(values[i]);
+}
+
+bool FoamFieldSurvey::kinematic_pressure() const {
+  return dimensions_known && ranges.size() == 1 && dimensions[0] == 0 && dimensions[1] == 2 &&
+         dimensions[2] == -2 && (name == "p" || name.starts_with("p_") || name.starts_with("p."));
+}
+
+FoamSurvey survey(const OpenFoamCase& foam, bool full) {
+  Surveyor surveyor(foam);
+  surveyor.count_times();
+  for (const auto time : chosen_snapshots(foam.times().size(), full)) surveyor.read(time);
+  return surveyor.finish();
+}
+
+}  // namespace bedscope::readers
