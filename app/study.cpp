@@ -281,11 +281,14 @@ Study read_study(const std::string& path) {
     scene->finish();
   }
   read_products(table, shared);
-  for (const auto* later : {"tradeoff", "check"}) table.find(later);  // for other commands
+  table.find("tradeoff");  // for another command
+  study.checks = validation::read_checks(table);
   auto runs = table.tables("run");
+  const auto folder = std::filesystem::path(path).parent_path();
+  for (const auto& curves : table.texts("curves").value_or(std::vector<std::string>{}))
+    study.curves.push_back((folder / curves).lexically_normal().string());
   table.finish();
   if (runs.empty()) throw InputError("{}: no [[run]]: expected at least one", path);
-  const auto folder = std::filesystem::path(path).parent_path();
   std::set<std::string> labels;
   for (auto& run : runs) {
     study.runs.push_back(read_run(run, shared, folder, study.runs.size() + 1));

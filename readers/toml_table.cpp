@@ -136,8 +136,7 @@ std::optional<std::vector<std::string>> TomlTable::texts(std::string_view name) 
     fail(*node, "{}: expected an array of texts, found {}", key(name), found_text(*node));
   std::vector<std::string> values;
   for (const auto& item : *node->as_array()) {
-    if (!item.is_string())
-      fail(item, "{}: expected a text, found {}", key(name), found_text(item));
+    if (!item.is_string()) fail(item, "{}: expected a text, found {}", key(name), found_text(item));
     values.push_back(item.value_or(std::string{}));
   }
   return values;

@@ -52,8 +52,7 @@ ComparedPoint at_reference(const Sampled& result, const CurvePoint& reference) {
   // Neighbours in a profile err together, so that their errors do not average out.
   point.u_result = (1 - share) * result.u[k - 1] + share * result.u[k];
   const std::size_t count = std::min<std::size_t>(4, result.at.size());
-  const std::size_t first =
-      std::min(k < 2 ? 0 : k - 2, result.at.size() - count);
+  const std::size_t first = std::min(k < 2 ? 0 : k - 2, result.at.size() - count);
   point.u_interpolation = std::abs(polynomial(result, first, count, reference.x) - point.result);
   const double slope = (result.value[k] - result.value[k - 1]) / width;
   point.u_reference = std::hypot(reference.u_y, slope * reference.u_x);
@@ -97,7 +96,8 @@ Comparison compare(const Sampled& all, const Curve& reference, std::size_t least
                      reference.name, reference.y.text(), reference.x.text(), all.y.text(),
                      all.x.text());
   const auto result = seen(all);
-  Comparison found{.x = all.x, .y = all.y, .error_known = all.error_known, .duration = all.duration};
+  Comparison found{
+      .x = all.x, .y = all.y, .error_known = all.error_known, .duration = all.duration};
   if (!result.at.empty()) match(result, reference.points, found);
   if (!reference.about.orientation_known && result.at.size() > 1) {
     Comparison other = found;
@@ -111,11 +111,11 @@ Comparison compare(const Sampled& all, const Curve& reference, std::size_t least
     }
   }
   if (found.points.size() < std::max<std::size_t>(least, 1)) {
-    if (result.at.empty())
-      throw InputError("{}: the run has no {}", reference.name, all.y.text());
-    throw InputError("{}: outside the result: {} from {:.4g} to {:.4g}, the run's from {:.4g} to {:.4g}",
-                     reference.name, reference.x.text(), reference.points.front().x,
-                     reference.points.back().x, result.at.front(), result.at.back());
+    if (result.at.empty()) throw InputError("{}: the run has no {}", reference.name, all.y.text());
+    throw InputError(
+        "{}: outside the result: {} from {:.4g} to {:.4g}, the run's from {:.4g} to {:.4g}",
+        reference.name, reference.x.text(), reference.points.front().x, reference.points.back().x,
+        result.at.front(), result.at.back());
   }
   return found;
 }

@@ -14,11 +14,11 @@ struct Sampled {
   Title x, y;
   std::vector<double> at;  ///< ascending
   std::vector<double> value;
-  std::vector<double> u;       ///< standard error of each value; 0 where it is not known
-  bool error_known = true;     ///< false: the run has no intervals (tables of another program)
-  bool is_scalar = false;      ///< one value, no abscissa
+  std::vector<double> u;         ///< standard error of each value; 0 where it is not known
+  bool error_known = true;       ///< false: the run has no intervals (tables of another program)
+  bool is_scalar = false;        ///< one value, no abscissa
   bool is_distribution = false;  ///< value is a probability density of `at`
-  double duration = 0;         ///< [s] averaged over; 0: not known
+  double duration = 0;           ///< [s] averaged over; 0: not known
 };
 
 /// Result and reference at one abscissa.
@@ -37,7 +37,7 @@ struct Comparison {
   Title x, y;
   std::vector<ComparedPoint> points;
   std::vector<CurvePoint> outside;  ///< points of the reference that the result does not reach
-  bool mirrored = false;  ///< the reference's abscissa was turned round: see compare()
+  bool mirrored = false;            ///< the reference's abscissa was turned round: see compare()
   bool error_known = true;
   double duration = 0;
 };

@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <optional>
@@ -12,105 +11,13 @@
 
 #include "analysis/csv.hpp"
 #include "readers/toml_table.hpp"
+#include "validation/sidecar.hpp"
 
 namespace bedscope::validation {
 namespace {
 
 namespace fs = std::filesystem;
 constexpr double coverage_factor = 1.96;  // of a 95 % interval of a normal distribution
-
-/// How the uncertainty of an axis is told: by a column, a number, a share of the value, or not.
-struct UncertaintyRule {
-  std::string column;
-  bool is_interval = false;  ///< the column holds half-widths of 95 % intervals
-  std::optional<double> absolute, relative;
-  bool stated() const { return !column.empty() || absolute || relative; }
-};
-
-struct Sidecar {
-  Provenance about;
-  std::string abscissa, ordinate;  ///< names of columns; empty: the last two that are no others'
-  bool table = false;
-  UncertaintyRule u_x, u_y;
-};
-
-std::optional<double> to_number(std::string_view text) {
-  double value = 0;
-  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (code != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
-/// 0.002 (in the unit of the axis), "3 %" (of the value), "holdup_u" (a column), "not stated".
-UncertaintyRule uncertainty(readers::TomlTable& table, const char* key) {
-  UncertaintyRule rule;
-  const auto* node = table.find(key);
-  if (node == nullptr) return rule;
-  if (node->is_number()) {
-    rule.absolute = table.number(*node, key);
-    if (*rule.absolute < 0)
-      table.fail(*node, "{}: expected a standard uncertainty of at least 0, found {}", key,
-                 *rule.absolute);
-    return rule;
-  }
-  const auto text = table.text(key).value_or("");
-  if (text == "not stated") return rule;
-  if (text.ends_with('%')) {
-    const auto share = to_number(text.substr(0, text.find_last_not_of("% ") + 1));
-    if (!share || *share < 0)
-      table.fail(*node, "{}: expected a share such as \"3 %\", found \"{}\"", key, text);
-    rule.relative = *share / 100;
-  } else {
-    rule.column = text;
-  }
-  return rule;
-}
-
-void read_conditions(readers::TomlTable& table, Provenance& about) {
-  auto conditions = table.table("conditions");
-  if (!conditions) return;
-  for (const auto& [key, node] : conditions->raw())
-    about.conditions.emplace_back(key.str(), node.is_string() ? node.value_or(std::string{})
-                                                              : readers::found_text(node));
-}
-
-Sidecar read_sidecar(const std::string& path) {
-  const auto parsed = readers::parse_toml(path);
-  readers::TomlTable table(parsed, "", path);
-  Sidecar sidecar;
-  auto& about = sidecar.about;
-  const auto text = [&](const char* key) { return table.text(key).value_or(""); };
-  about.title = text("title");
-  about.quantity = text("quantity");
-  about.citation = text("citation");
-  about.doi = text("doi");
-  about.kind = text("kind");
-  about.method = text("method");
-  about.by = text("by");
-  about.measurement = text("measurement");
-  about.source = text("source");
-  about.licence = text("licence");
-  about.processing = text("processing");
-  about.uncertainty_note = text("uncertainty_note");
-  for (const char* key : {"series", "source_files"}) table.find(key);  // for people only
-  if (const auto pass_on = table.text("redistribute")) {
-    if (*pass_on != "yes" && *pass_on != "no")
-      table.fail(*table.find("redistribute"), "redistribute: expected \"yes\" or \"no\", found \"{}\"",
-                 *pass_on);
-    about.redistribute = *pass_on == "yes";
-  }
-  about.orientation_known = text("orientation") != "unknown";
-  about.caveats = table.texts("caveats").value_or(std::vector<std::string>{});
-  about.checks = table.texts("checks").value_or(std::vector<std::string>{});
-  read_conditions(table, about);
-  sidecar.abscissa = text("abscissa");
-  sidecar.ordinate = text("ordinate");
-  sidecar.table = table.boolean("table").value_or(false);
-  sidecar.u_x = uncertainty(table, "abscissa_uncertainty");
-  sidecar.u_y = uncertainty(table, "ordinate_uncertainty");
-  table.finish();
-  return sidecar;
-}
 
 /// Places of a set's columns in its rows.
 struct Columns {
@@ -169,8 +76,8 @@ Columns find_columns(const std::string& path, const analysis::CsvReader& rows, S
   if (plain.size() < 2)
     throw FormatError("{}: line 1: expected an abscissa and an ordinate with their units, found {}",
                       path, fmt::join(header, ", "));
-  columns.x = sidecar.abscissa.empty() ? plain[plain.size() - 2]
-                                       : needed(path, rows, sidecar.abscissa);
+  columns.x =
+      sidecar.abscissa.empty() ? plain[plain.size() - 2] : needed(path, rows, sidecar.abscissa);
   columns.y = sidecar.ordinate.empty() ? plain.back() : needed(path, rows, sidecar.ordinate);
   need_unit(path, header[columns.x]);
   need_unit(path, header[columns.y]);
@@ -202,16 +109,9 @@ std::vector<std::string> ordered(const std::set<std::string>& values) {
   return sorted;
 }
 
-std::string sidecar_of(const std::string& csv) { return fs::path(csv).replace_extension(".toml"); }
-
-Sidecar sidecar_if_there(const std::string& csv) {
-  const auto path = sidecar_of(csv);
-  return fs::exists(path) ? read_sidecar(path) : Sidecar{};
-}
-
 CurveSet read_set(const std::string& name, const std::string& path) {
   CurveSet set{.name = name, .path = path};
-  auto sidecar = sidecar_if_there(path);
+  auto sidecar = sidecar_of(path);
   set.about = sidecar.about;
   if (!fs::exists(path)) {
     if (set.about.redistribute)
@@ -284,15 +184,14 @@ void set_uncertainties(const Sidecar& sidecar, bool has_bars, Curve& curve) {
     }
     if (rule.stated()) return;
     curve.assumptions.push_back(
-        digitised ? fmt::format("{}: uncertainty of {} not stated; {:.1g} {} ({} % of its range) "
-                                "assumed as for a digitised plot",
-                                curve.name, title.name, assumed, title.unit, share * 100)
-                  : fmt::format("{}: uncertainty of {} not stated; taken as 0", curve.name,
-                                title.name));
+        digitised
+            ? fmt::format("{}: uncertainty of {} not stated; {:.1g} {} ({} % of its range) "
+                          "assumed as for a digitised plot",
+                          curve.name, title.name, assumed, title.unit, share * 100)
+            : fmt::format("{}: uncertainty of {} not stated; taken as 0", curve.name, title.name));
   };
   fill(sidecar.u_x, curve.x, &CurvePoint::x, &CurvePoint::u_x, assumed_u_x);
-  if (!has_bars)
-    fill(sidecar.u_y, curve.y, &CurvePoint::y, &CurvePoint::u_y, assumed_u_y);
+  if (!has_bars) fill(sidecar.u_y, curve.y, &CurvePoint::y, &CurvePoint::u_y, assumed_u_y);
 }
 
 std::string choices(const CurveSet& set) {
@@ -338,7 +237,7 @@ std::vector<std::string> wanted_values(const CurveSet& set, const std::string& s
 
 Curve read_curve(const CurveSet& set, const std::string& selection,
                  const std::vector<std::string>& wanted) {
-  auto sidecar = sidecar_if_there(set.path);
+  auto sidecar = sidecar_of(set.path);
   analysis::CsvReader rows(set.path);
   const auto columns = find_columns(set.path, rows, sidecar);
   Curve curve{.name = selection, .path = set.path, .x = set.x, .y = set.y, .about = set.about};
@@ -391,8 +290,9 @@ Curves Curves::open(std::span<const std::string> folders) {
 
 Curve Curves::curve(const std::string& selection, const std::map<std::string, double>& at) const {
   const auto [name, chosen] = parse_selection(selection);
-  const auto found = std::find_if(sets_.begin(), sets_.end(),
-                                  [&, &name = name](const CurveSet& set) { return set.name == name; });
+  const auto found =
+      std::find_if(sets_.begin(), sets_.end(),
+                   [&, &name = name](const CurveSet& set) { return set.name == name; });
   CurveSet set;
   if (found != sets_.end()) {
     set = *found;
@@ -409,7 +309,8 @@ Curve Curves::curve(const std::string& selection, const std::map<std::string, do
     throw MissingCurve("{}: its numbers may not be passed on; supply {} ({})", name, set.path,
                        set.about.citation);
   if (set.x.name.empty())
-    throw InputError("{}: a table of values, not a curve: expected an abscissa and an ordinate", name);
+    throw InputError("{}: a table of values, not a curve: expected an abscissa and an ordinate",
+                     name);
   return read_curve(set, selection, wanted_values(set, selection, chosen, at));
 }
 

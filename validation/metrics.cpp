@@ -41,9 +41,8 @@ Perturbed perturb(const Comparison& comparison, Errors errors, bool of_result, D
     const double result = together ? common_result : draw.normal();
     const double reference = together ? common_reference : draw.normal();
     const double between = draw.normal();
-    drawn.result.push_back(point.result + (of_result ? result * point.u_result +
-                                                           between * point.u_interpolation
-                                                     : 0));
+    drawn.result.push_back(
+        point.result + (of_result ? result * point.u_result + between * point.u_interpolation : 0));
     drawn.reference.push_back(point.reference + reference * point.u_reference);
   }
   return drawn;
@@ -132,8 +131,8 @@ void widen(Interval& interval, double value, Interval drawn, bool reflect) {
   interval.hi = std::max(interval.hi, 2 * value - drawn.lo);
 }
 
-Interval interval_of(const Metric& metric, const Comparison& comparison, double value,
-                     double noise, bool of_result) {
+Interval interval_of(const Metric& metric, const Comparison& comparison, double value, double noise,
+                     bool of_result) {
   const bool subtracts = metric.name == "relative rmse" || metric.name == "e over u";
   double added = noise;
   if (metric.name == "relative rmse")
@@ -201,9 +200,10 @@ MetricValue evaluate(const Metric& metric, const Comparison& comparison) {
   if (metric.name == "e over u")
     for (const auto& point : comparison.points)
       if (!(point.u_validation() > 0))
-        throw InputError("e over u: no uncertainty at {} = {:.4g}: expected one of result or "
-                         "reference",
-                         comparison.x.name, point.x);
+        throw InputError(
+            "e over u: no uncertainty at {} = {:.4g}: expected one of result or "
+            "reference",
+            comparison.x.name, point.x);
   MetricValue found;
   found.value = statistic(metric, comparison, as_is, noise);
   const auto all = interval_of(metric, comparison, found.value, noise, true);
@@ -241,8 +241,7 @@ struct Cumulative {
     if (x >= face.back()) return 1;
     const auto k =
         static_cast<std::size_t>(std::upper_bound(face.begin(), face.end(), x) - face.begin());
-    return value[k - 1] +
-           (value[k] - value[k - 1]) * (x - face[k - 1]) / (face[k] - face[k - 1]);
+    return value[k - 1] + (value[k] - value[k - 1]) * (x - face[k - 1]) / (face[k] - face[k - 1]);
   }
 };
 

@@ -46,8 +46,8 @@ const Metric& find_metric(const std::string& name);
 /// from point to point and once with errors common to all points (what is true lies between, and
 /// nobody knows where), the wider ends taken. The draws' own scatter is subtracted where a metric
 /// would count it (rmse, e over u); elsewhere the interval is the union of the percentile and the
-/// reflected one (Davison and Hinkley, Bootstrap Methods, 1997, section 5.2). Always the same draws.
-/// Throws InputError for a reference of zero mean, or "e over u" without any uncertainty.
+/// reflected one (Davison and Hinkley, Bootstrap Methods, 1997, section 5.2). Always the same
+/// draws. Throws InputError for a reference of zero mean, or "e over u" without any uncertainty.
 MetricValue evaluate(const Metric& metric, const Comparison& comparison);
 
 /// 1-Wasserstein distance of two distributions given by densities on abscissae of their own, in the

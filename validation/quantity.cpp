@@ -148,8 +148,7 @@ Estimate temperature_of(const RunResult& run, const Place& place,
                         double analysis::TemperatureSample::*part) {
   std::vector<double> values;
   for (const auto& sample : run.temperature)
-    if (sample.type == place.species && in_window(run, sample.time) &&
-        std::isfinite(sample.*part))
+    if (sample.type == place.species && in_window(run, sample.time) && std::isfinite(sample.*part))
       values.push_back(sample.*part);
   return mean_of(values);
 }

@@ -73,13 +73,11 @@ double less_noise(double value, double noise) {
 /// The statistic of a shape; `noise`: root mean square of the standard errors.
 double statistic(std::string_view name, const Placed& profile, double noise) {
   const double m = profile.magnitude();
-  if (name == "u-shaped")
-    return (std::min(profile.left(), profile.right()) - profile.core()) / m;
+  if (name == "u-shaped") return (std::min(profile.left(), profile.right()) - profile.core()) / m;
   if (name == "core-annulus")
     return (profile.core() - std::max(profile.left(), profile.right())) / m;
   if (name == "down-flow at walls") return std::max(profile.left(), profile.right()) / m;
-  if (name == "near walls")
-    return (profile.left() + profile.right()) / 2 / profile.mean(0, 1) - 1;
+  if (name == "near walls") return (profile.left() + profile.right()) / 2 / profile.mean(0, 1) - 1;
   if (name == "decreasing")
     return less_noise(rmse(profile.value, nearest_falling(profile.value)), noise) / m;
   const std::vector<double> mirrored(profile.value.rbegin(), profile.value.rend());
