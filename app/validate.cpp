@@ -7,11 +7,14 @@
 #include <memory>
 
 #include "analysis/analyse_run.hpp"
+#include "analysis/output_file.hpp"
 #include "analysis/tables.hpp"
 #include "app/commands.hpp"
 #include "app/progress.hpp"
 #include "app/study.hpp"
 #include "readers/error.hpp"
+#include "report/validation_page.hpp"
+#include "report/validation_summary.hpp"
 #include "validation/curves.hpp"
 #include "validation/verdict.hpp"
 
@@ -27,6 +30,7 @@ struct Options {
   std::string study;
   std::string folder = "bedscope-validation";
   std::vector<std::string> curves;
+  std::string earlier;  // summary.json
   bool allow_undecided = false;
 };
 
@@ -67,6 +71,22 @@ std::vector<Verdict> judge_all(const Study& study, std::span<const RunResult> re
   return verdicts;
 }
 
+void write_all(const Study& study, const std::vector<RunResult>& results,
+               const std::vector<Verdict>& verdicts, const Options& options) {
+  const std::filesystem::path folder = options.folder;
+  report::ValidationReport report{
+      .title = study.title, .study = options.study, .runs = results, .verdicts = verdicts};
+  if (!options.earlier.empty()) {
+    report.earlier = report::read_earlier(options.earlier);
+    report.earlier_name = options.earlier;
+  }
+  analysis::write_tables(results, folder / "tables");
+  report::write_validation_page(report, folder);
+  analysis::write_file(folder / "junit.xml", report::junit_text(verdicts, study.title));
+  analysis::write_file(folder / "summary.md", report::markdown_text(verdicts, study.title));
+  analysis::write_file(folder / "summary.json", report::summary_with_checks(results, verdicts));
+}
+
 void tell(const std::vector<Verdict>& verdicts) {
   for (const auto& verdict : verdicts) {
     fmt::print("{:<14} {}: {}{}: {}\n", name_of(verdict.outcome), verdict.run,
@@ -93,7 +113,11 @@ int run(const Options& options) {
   std::vector<RunResult> results;
   for (const auto& each : study.runs) results.push_back(result_of(each, options));
   const auto verdicts = judge_all(study, results, options);
-  if (!options.common.quiet) tell(verdicts);
+  write_all(study, results, verdicts, options);
+  if (options.common.json)
+    fmt::print("{}", report::summary_with_checks(results, verdicts));
+  else if (!options.common.quiet)
+    tell(verdicts);
   return code_of(verdicts, options);
 }
 
@@ -107,6 +131,8 @@ void add_validate(CLI::App& app, int& exit_code) {
   command->add_option("-o,--output", options->folder, "folder of the results")
       ->capture_default_str();
   command->add_option("--curves", options->curves, "more folders of curves");
+  command->add_option("--earlier", options->earlier,
+                      "an earlier summary.json, shown beside the new verdicts");
   command->add_flag("--allow-undecided", options->allow_undecided,
                     "a check that cannot be decided does not fail the command");
   add_common(*command, options->common);

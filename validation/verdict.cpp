@@ -45,6 +45,32 @@ Curve baseline(const std::string& path, const Check& check, const std::string& l
   return as_curve(sample(earlier, check.place), "baseline " + path);
 }
 
+/// The mean of all other runs at the abscissae of this one: how far a family of runs falls
+/// together.
+Curve mean_of_others(const Check& check, const RunResult& run, const Sampled& result,
+                     std::span<const RunResult> runs) {
+  Curve mean{.name = "mean of the other runs", .x = result.x, .y = result.y};
+  std::vector<Comparison> others;
+  const auto here = as_curve(result, run.label);
+  for (const auto& other : runs)
+    if (other.label != run.label) others.push_back(compare(sample(other, check.place), here));
+  if (others.empty()) throw InputError("run:others: expected a second run in the study");
+  for (const double x : result.at) {
+    double sum = 0, u = 0, count = 0;
+    for (const auto& other : others)
+      for (const auto& point : other.points)
+        if (point.x == x) {
+          sum += point.result;
+          u += point.u_result * point.u_result + point.u_interpolation * point.u_interpolation;
+          count += 1;
+        }
+    if (count == static_cast<double>(others.size()))
+      mean.points.push_back({x, sum / count, 0, std::sqrt(u) / count});
+  }
+  if (mean.points.empty()) throw InputError("run:others: the runs have no abscissa in common");
+  return mean;
+}
+
 Curve reference_of(const Check& check, const RunResult& run, const Sampled& result,
                    std::span<const RunResult> runs, const Curves& curves,
                    const std::string& study) {
@@ -52,6 +78,7 @@ Curve reference_of(const Check& check, const RunResult& run, const Sampled& resu
   const auto after = [&](std::string_view prefix) { return check.against.substr(prefix.size()); };
   if (check.against.starts_with("theory:"))
     return theory_curve(after("theory:"), check.with, run, result);
+  if (check.against == "run:others") return mean_of_others(check, run, result, runs);
   if (check.against.starts_with("run:")) {
     const auto label = after("run:");
     return as_curve(sample(run_of(runs, label), check.place), "run " + label);
