@@ -214,14 +214,9 @@ std::vector<std::string> wanted_values(const CurveSet& set, const std::string& s
       chosen.erase(named);
     } else if (const auto place = at.find(title.name); place != at.end()) {
       value = fmt::format("{}", place->second);
-    } else if (values.size() == 1) {
-      value = values.front();
-    } else if (title.unit.empty()) {
-      wanted.emplace_back();  // a label of the source; the numbers beside it choose
-      continue;
     } else {
-      throw InputError("{}: several curves: expected a choice of {}, found none; there are {}",
-                       selection, title.name, choices(set));
+      wanted.emplace_back();  // any, if the rows that are left agree
+      continue;
     }
     if (std::none_of(values.begin(), values.end(),
                      [&](const auto& v) { return matches(v, value); }))
@@ -241,12 +236,15 @@ Curve read_curve(const CurveSet& set, const std::string& selection,
   analysis::CsvReader rows(set.path);
   const auto columns = find_columns(set.path, rows, sidecar);
   Curve curve{.name = selection, .path = set.path, .x = set.x, .y = set.y, .about = set.about};
+  std::vector<std::set<std::string>> left(wanted.size());
   const bool has_bars = columns.y_lo && columns.y_hi && !columns.u_y;
   while (rows.next()) {
     bool mine = true;
     for (std::size_t k = 0; k < wanted.size(); ++k)
       mine = mine && (wanted[k].empty() || matches(rows.text(columns.parameters[k]), wanted[k]));
     if (!mine) continue;
+    for (std::size_t k = 0; k < wanted.size(); ++k)
+      left[k].emplace(rows.text(columns.parameters[k]));
     CurvePoint point{finite(rows, columns.x), finite(rows, columns.y)};
     const double factor_x = sidecar.u_x.is_interval ? coverage_factor : 1;
     const double factor_y = sidecar.u_y.is_interval ? coverage_factor : 1;
@@ -257,6 +255,14 @@ Curve read_curve(const CurveSet& set, const std::string& selection,
                   (2 * coverage_factor);
     curve.points.push_back(point);
   }
+  // A column without a unit is a label of the source; the numbers beside it choose.
+  for (std::size_t k = 0; k < wanted.size(); ++k)
+    if (left[k].size() > 1 && !set.parameters[k].title.unit.empty())
+      throw InputError("{}: several curves: expected a choice of {}, found {} = {}; there are {}",
+                       selection, set.parameters[k].title.name, set.parameters[k].title.name,
+                       fmt::join(ordered(left[k]), ", "), choices(set));
+  if (curve.points.empty())
+    throw InputError("{}: no point is left; there are {}", selection, choices(set));
   std::stable_sort(curve.points.begin(), curve.points.end(),
                    [](const CurvePoint& a, const CurvePoint& b) { return a.x < b.x; });
   if (has_bars)
