@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <set>
 
 #include "analysis/analyse_run.hpp"
 #include "analysis/output_file.hpp"
@@ -87,14 +88,15 @@ void write_all(const Study& study, const std::vector<RunResult>& results,
   analysis::write_file(folder / "summary.json", report::summary_with_checks(results, verdicts));
 }
 
+/// Each assumption is told once, however many checks rest on it.
 void tell(const std::vector<Verdict>& verdicts) {
+  std::set<std::string> assumptions;
   for (const auto& verdict : verdicts) {
-    fmt::print("{:<14} {}: {}{}: {}\n", name_of(verdict.outcome), verdict.run,
-               verdict.check.place.quantity,
-               verdict.reference.name.empty() ? "" : " against " + verdict.reference.name,
+    fmt::print("{:<14} {}: {}\n", name_of(verdict.outcome), report::check_key(verdict),
                verdict.reason);
-    for (const auto& assumption : verdict.assumptions) fmt::print("  assumed: {}\n", assumption);
+    assumptions.insert(verdict.assumptions.begin(), verdict.assumptions.end());
   }
+  for (const auto& assumption : assumptions) fmt::print("assumed: {}\n", assumption);
 }
 
 int code_of(const std::vector<Verdict>& verdicts, const Options& options) {
