@@ -54,6 +54,8 @@ class CsvReader {
  public:
   explicit CsvReader(const std::filesystem::path& path);
 
+  /// The titles of the columns, in order.
+  const std::vector<std::string>& header() const { return header_; }
   /// The place of a column in the rows; nothing where the table has none of that name.
   std::optional<std::size_t> column(std::string_view name) const;
   /// The same, but FormatError where there is none.

@@ -5,9 +5,12 @@
 
 #include <CLI/CLI.hpp>
 
+#include <string>
+#include <vector>
+
 namespace bedscope::app {
 
-inline constexpr int done = 0, bad_input = 2, internal_error = 3;
+inline constexpr int done = 0, does_not_hold = 1, bad_input = 2, internal_error = 3;
 
 /// Options that every command takes.
 struct Common {
@@ -18,6 +21,11 @@ struct Common {
 
 void add_common(CLI::App& command, Common& common);
 void add_analyse(CLI::App& app);
+void add_curves(CLI::App& app);
 void add_info(CLI::App& app);
+void add_validate(CLI::App& app, int& exit_code);
+
+/// The curves that come with bedscope: installed beside the program, or in its source tree.
+std::string curves_folder();
 
 }  // namespace bedscope::app

@@ -46,8 +46,11 @@ int main(int argc, char** argv) {
     app.name("bedscope");
     app.set_version_flag("--version", "bedscope " BEDSCOPE_VERSION);
     app.require_subcommand(1);
+    int exit_code = app::done;
     app::add_info(app);
     app::add_analyse(app);
+    app::add_validate(app, exit_code);
+    app::add_curves(app);
     try {
       app.parse(argc, argv);
     } catch (const CLI::Success& asked) {  // --help, --version
@@ -56,7 +59,7 @@ int main(int argc, char** argv) {
       fmt::print(stderr, "bedscope: {} (see bedscope --help)\n", error.what());
       return app::bad_input;
     }
-    return printed() ? app::done : cannot_print();
+    return printed() ? exit_code : cannot_print();
   } catch (const Error& error) {
     fmt::print(stderr, "bedscope: {}\n", error.what());
     return app::bad_input;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analysis/settings.hpp"
+#include "validation/check.hpp"
 
 namespace bedscope::app {
 
@@ -19,6 +20,8 @@ struct StudyRun {
 struct Study {
   std::string title;
   std::vector<StudyRun> runs;
+  std::vector<validation::Check> checks;
+  std::vector<std::string> curves;  ///< folders of curves of the user's own
 };
 
 /// Reads a study file. Paths in it are relative to its folder. Throws FileError, or InputError with

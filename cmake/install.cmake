@@ -17,3 +17,5 @@ install(FILES ${PROJECT_BINARY_DIR}/bedscopeConfig.cmake
               ${PROJECT_BINARY_DIR}/bedscopeConfigVersion.cmake
               ${CMAKE_CURRENT_LIST_DIR}/dependencies.cmake
               ${CMAKE_CURRENT_LIST_DIR}/FindOpenCVImgproc.cmake DESTINATION ${destination})
+# Beside the program, where curves_folder() in app/ looks for them.
+install(DIRECTORY data/curves DESTINATION ${CMAKE_INSTALL_DATADIR}/bedscope)

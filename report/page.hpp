@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <span>
 #include <string>
-#include <string_view>
 
 #include "analysis/result.hpp"
 
@@ -22,8 +21,5 @@ struct ReportOptions {
 /// Throws InputError without runs or where gnuplot is missing (names the package), FileError.
 void write_report(std::span<const analysis::RunResult> runs, const std::string& title,
                   const std::filesystem::path& folder, const ReportOptions& options = {});
-
-/// "&lt;" for "<" and so on: a user's text as HTML shows it, in text and in attributes.
-std::string escaped(std::string_view text);
 
 }  // namespace bedscope::report

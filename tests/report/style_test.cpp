@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "report/html.hpp"
 #include "report/page.hpp"
 
 namespace bedscope::report {

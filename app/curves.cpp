@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// bedscope curves: the reference curves at hand, and what is known of them.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/commands.hpp"
+#include "readers/error.hpp"
+#include "validation/curves.hpp"
+
+namespace bedscope::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using validation::Curve;
+using validation::Curves;
+using validation::CurveSet;
+
+struct Options {
+  Common common;
+  std::string name;
+  std::vector<std::string> folders;
+};
+
+Json to_json(const CurveSet& set) {
+  Json json;
+  json["name"] = set.name;
+  json["title"] = set.about.title;
+  json["kind"] = set.about.kind;
+  json["method"] = set.about.method;
+  json["citation"] = set.about.citation;
+  json["abscissa"] = set.x.text();
+  json["ordinate"] = set.y.text();
+  json["points"] = set.points;
+  json["available"] = set.available;
+  for (const auto& parameter : set.parameters)
+    json["parameters"][parameter.title.text()] = parameter.values;
+  json["caveats"] = set.about.caveats;
+  return json;
+}
+
+void list(const Curves& curves) {
+  for (const auto& set : curves.sets()) {
+    const auto what = set.x.name.empty() ? "table" : set.y.text() + " against " + set.x.text();
+    fmt::print("{:<42} {:<12} {:>4} {}  {}\n", set.name, set.about.kind, set.points,
+               set.x.name.empty() ? "rows  " : "points",
+               set.available ? what : "not passed on: supply " + set.path);
+  }
+}
+
+void line(const char* what, const std::string& text) {
+  if (!text.empty()) fmt::print("  {:<12} {}\n", what, text);
+}
+
+void show(const CurveSet& set) {
+  const auto& about = set.about;
+  fmt::print("{}\n", set.name);
+  line("title", about.title);
+  line("citation", about.citation);
+  line("doi", about.doi);
+  line("kind", about.method.empty() ? about.kind : about.kind + ", " + about.method);
+  line("by", about.by);
+  line("measured by", about.measurement);
+  line("source", about.source);
+  line("licence", about.licence);
+  line("processing", about.processing);
+  line("uncertainty", about.uncertainty_note);
+  if (!set.x.name.empty()) line("curve", set.y.text() + " against " + set.x.text());
+  for (const auto& parameter : set.parameters)
+    if (parameter.values.size() <= 24)
+      line("choose",
+           fmt::format("{} = {}", parameter.title.text(), fmt::join(parameter.values, ", ")));
+  for (const auto& [key, value] : about.conditions) line("condition", key + ": " + value);
+  for (const auto& caveat : about.caveats) line("caveat", caveat);
+  for (const auto& check : about.checks) line("checked", check);
+  line("file", set.path);
+}
+
+void show_points(const Curve& curve) {
+  fmt::print("{0},{0}_u,{1},{1}_u\n", curve.x.text(), curve.y.text());
+  for (const auto& point : curve.points)
+    fmt::print("{},{:.3g},{},{:.3g}\n", point.x, point.u_x, point.y, point.u_y);
+  for (const auto& assumption : curve.assumptions) fmt::print("# {}\n", assumption);
+}
+
+void run(const Options& options) {
+  auto folders = options.folders;
+  folders.push_back(curves_folder());
+  const auto curves = Curves::open(folders);
+  if (options.common.json) {
+    Json all = Json::array();
+    for (const auto& set : curves.sets())
+      if (options.name.empty() || set.name == options.name) all.push_back(to_json(set));
+    fmt::print("{}\n", all.dump(2, ' ', false, Json::error_handler_t::replace));
+    return;
+  }
+  if (options.name.empty()) return list(curves);
+  for (const auto& set : curves.sets())
+    if (set.name == options.name) return show(set);
+  show_points(curves.curve(options.name));
+}
+
+}  // namespace
+
+std::string curves_folder() {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const auto program = fs::read_symlink("/proc/self/exe", error);
+  const auto installed = program.parent_path() / "../share/bedscope/curves";
+  if (!error && fs::is_directory(installed)) return installed.lexically_normal().string();
+  return BEDSCOPE_CURVES;
+}
+
+void add_curves(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  auto* command = app.add_subcommand("curves", "the reference curves at hand");
+  command->add_option("name", options->name,
+                      "one of them; with a selection (\"varas_2017/axial_holdup?U=5.55\") its "
+                      "points as CSV");
+  command->add_option("--curves", options->folders, "more folders of curves");
+  add_common(*command, options->common);
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace bedscope::app

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "report/check_figures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/figure_parts.hpp"
+
+namespace bedscope::report {
+
+using analysis::Estimate;
+using validation::Verdict;
+
+namespace {
+
+constexpr double coverage_factor = 1.96;
+constexpr double width = 110, left = 19, right = 4, bottom = 11;  // [mm]
+constexpr double main_height = 55, error_height = 24, gap = 4;
+constexpr const char* data_style = "pt 7 ps 0.35 lc rgb '#000000'";
+constexpr const char* result_colour = "#0072B2";
+
+std::vector<Estimate> estimates_of(const validation::Sampled& sampled) {
+  std::vector<Estimate> estimates;
+  for (std::size_t i = 0; i < sampled.value.size(); ++i)
+    estimates.push_back({sampled.value[i], coverage_factor * sampled.u[i]});
+  return estimates;
+}
+
+/// The reference as it was compared: turned round where that was so.
+std::vector<validation::CurvePoint> shown_reference(const Verdict& verdict) {
+  if (!verdict.comparison.mirrored) return verdict.reference.points;
+  std::vector<validation::CurvePoint> points;
+  for (const auto& point : verdict.comparison.points)
+    points.push_back({point.x, point.reference, 0, point.u_reference});
+  points.insert(points.end(), verdict.comparison.outside.begin(), verdict.comparison.outside.end());
+  return points;
+}
+
+/// Ranges of both panels and what stands under their axes.
+struct Layout {
+  Panel main, errors;
+  double x_factor = 1;
+};
+
+Layout layout_of(const Verdict& verdict, std::span<const Estimate> result, bool with_errors) {
+  Range x, y, e;
+  for (const double at : verdict.result.at) x.add(at);
+  for (const auto& point : shown_reference(verdict)) {
+    x.add(point.x);
+    y.add(point.y - coverage_factor * point.u_y);
+    y.add(point.y + coverage_factor * point.u_y);
+  }
+  add_estimates(y, result);
+  if (y.lo > 0 && y.lo < 0.4 * y.hi) y.lo = 0;
+  e.add(0);
+  for (const auto& point : verdict.comparison.points) {
+    e.add(point.error());
+    e.add(coverage_factor * point.u_validation());
+    e.add(-coverage_factor * point.u_validation());
+  }
+  const bool is_length = verdict.result.x.unit == "m";
+  const Unit unit = is_length ? length_unit(x.hi - x.lo) : Unit{verdict.result.x.unit, 1};
+  Layout layout;
+  layout.x_factor = unit.factor;
+  const double lower = with_errors ? error_height + gap : 0;
+  layout.main = {
+      .left = left, .bottom = bottom + lower, .width = width - left - right, .height = main_height};
+  layout.main.x = exact_axis(x.lo * unit.factor, x.hi * unit.factor, 7);
+  layout.main.y = rounded_axis(y.lo, y.hi, 6);
+  layout.main.x_numbers = !with_errors;
+  layout.main.y_label = literal(fmt::format("{}", verdict.result.y.text()));
+  layout.main.y_label_gap = 14;
+  layout.errors = layout.main;
+  layout.errors.bottom = bottom;
+  layout.errors.height = error_height;
+  layout.errors.x_numbers = true;
+  layout.errors.y = rounded_axis(e.lo, e.hi, 4);
+  layout.errors.zero_line = true;
+  layout.errors.y_label = literal("error");
+  (with_errors ? layout.errors : layout.main).x_label =
+      literal(fmt::format("{} [{}]", verdict.result.x.name, unit.name));
+  return layout;
+}
+
+void draw_main(Canvas& canvas, const Verdict& verdict, const Layout& layout,
+               std::span<const Estimate> result) {
+  canvas.open(layout.main);
+  const auto reference = shown_reference(verdict);
+  std::vector<std::string> layers;
+  const auto band = estimate_band(verdict.result.at, result, layout.x_factor);
+  if (!band.empty())
+    layers.push_back(Canvas::layer(canvas.block("band of the result: value, x", band),
+                                   fmt::format("using 2:1 with filledcurves closed fs transparent "
+                                               "solid 0.25 noborder fc rgb '{}'",
+                                               result_colour)));
+  std::string rows;
+  for (std::size_t i = 0; i < result.size(); ++i)
+    rows += data_row({layout.x_factor * verdict.result.at[i], result[i].value, result[i].ci95});
+  layers.push_back(
+      Canvas::layer(canvas.block("result: x, value, ci95", rows),
+                    fmt::format("using 1:2 with lines lc rgb '{}' lw 1.3", result_colour)));
+  std::vector<double> x;
+  std::vector<Estimate> bars;
+  std::string points;
+  for (const auto& point : reference) {
+    x.push_back(layout.x_factor * point.x);
+    bars.push_back({point.y, coverage_factor * point.u_y});
+    points += data_row({x.back(), point.y, bars.back().ci95});
+  }
+  const double cap = bar_cap * (layout.main.x.hi - layout.main.x.lo) / layout.main.width;
+  if (const auto outline = bar_rows(x, bars, cap); !outline.empty() && !points.empty())
+    layers.push_back(Canvas::layer(canvas.block("bars of the reference: x, value", outline),
+                                   "using 1:2 with lines lw 0.6 lc rgb '#000000'"));
+  if (!points.empty())
+    layers.push_back(Canvas::layer(canvas.block("reference: x, value, ci95", points),
+                                   fmt::format("using 1:2 with points {}", data_style)));
+  canvas.draw(layers);
+}
+
+void draw_errors(Canvas& canvas, const Verdict& verdict, const Layout& layout) {
+  canvas.open(layout.errors);
+  std::vector<double> x, low, high;
+  std::string rows;
+  for (const auto& point : verdict.comparison.points) {
+    x.push_back(layout.x_factor * point.x);
+    high.push_back(coverage_factor * point.u_validation());
+    low.push_back(-high.back());
+    rows += data_row({x.back(), point.error(), high.back()});
+  }
+  std::vector<std::string> layers;
+  if (x.size() > 1)
+    layers.push_back(
+        Canvas::layer(canvas.block("1.96 u_val: value, x", band_outline(x, low, high)),
+                      "using 2:1 with filledcurves closed fs solid 1 noborder fc rgb '#E4E4E4'"));
+  layers.push_back(Canvas::layer(canvas.block("result - reference: x, error, 1.96 u_val", rows),
+                                 fmt::format("using 1:2 with points {}", data_style)));
+  canvas.draw(layers);
+}
+
+std::string place_words(const Verdict& verdict) {
+  std::string text = verdict.run + ": " + verdict.check.place.quantity;
+  for (const auto& [key, value] : verdict.check.place.at)
+    text += fmt::format(", {} {}", key, value);
+  if (verdict.check.place.species != "all")
+    text += ", " + species_title(verdict.check.place.species);
+  return text;
+}
+
+}  // namespace
+
+Figure check_figure(const Verdict& verdict, const std::string& name) {
+  const auto title = place_words(verdict);
+  if (verdict.outcome == validation::Outcome::skipped) return left_out(name, title, verdict.reason);
+  if (verdict.result.is_scalar) return left_out(name, title, "a single value");
+  const bool with_errors = !verdict.comparison.points.empty();
+  const auto result = estimates_of(verdict.result);
+  auto layout = layout_of(verdict, result, with_errors);
+  std::vector<LegendEntry> entries;
+  if (!verdict.reference.points.empty())
+    entries.push_back({"", data_style, verdict.reference.name});
+  entries.push_back({fmt::format("lc rgb '{}' lw 1.3", result_colour), "", verdict.run});
+  const double legend = Canvas::legend_height(entries, width - left) + 1;
+  Canvas canvas(width, layout.main.bottom + main_height + 2 + legend);
+  canvas.legend(entries, left, canvas.height() - 0.5, width - left);
+  draw_main(canvas, verdict, layout, result);
+  if (with_errors) draw_errors(canvas, verdict, layout);
+  std::string caption = "Line: result";
+  if (verdict.result.error_known) caption += ", band: its 95 % confidence interval";
+  if (!verdict.reference.points.empty())
+    caption += "; points: " + verdict.reference.name + ", bars: 95 % interval";
+  if (with_errors)
+    caption += ". Beneath: result less reference, grey: 1.96 times the validation uncertainty";
+  return drawn(canvas, name, title, caption + ".");
+}
+
+Figure family_figure(const validation::Family& family, const std::string& name) {
+  const auto title = "All of " + family.quantity;
+  if (family.points < 3) return left_out(name, title, "fewer than three points above 0");
+  constexpr double side = 70;
+  Range range;
+  for (const auto* verdict : family.verdicts)
+    for (const auto& point : verdict->comparison.points) {
+      range.add(point.result);
+      range.add(point.reference);
+    }
+  if (range.lo > 0) range.lo = 0;
+  std::vector<LegendEntry> entries;
+  for (std::size_t k = 0; k < family.verdicts.size(); ++k) {
+    const auto style = curve_style(k);
+    entries.push_back({"", fmt::format("{} lc rgb '{}'", style.marker, style.colour),
+                       place_words(*family.verdicts[k])});
+  }
+  const double legend = Canvas::legend_height(entries, width - left) + 1;
+  Canvas canvas(width, bottom + side + 2 + legend);
+  canvas.legend(entries, left, canvas.height() - 0.5, width - left);
+  Panel panel{.left = left, .bottom = bottom, .width = side, .height = side};
+  panel.x = panel.y = rounded_axis(range.lo, range.hi, 5);
+  panel.x_label = literal(fmt::format("reference {} [{}]", family.quantity, family.unit));
+  panel.y_label = literal(fmt::format("result {} [{}]", family.quantity, family.unit));
+  panel.y_label_gap = 14;
+  canvas.open(panel);
+  std::vector<std::string> layers;
+  const auto ray = [&](double slope, const char* words) {
+    const double x = std::min(panel.x.hi, panel.y.hi / slope);
+    layers.push_back(Canvas::layer(canvas.block(fmt::format("result = {:.3g} reference", slope),
+                                                data_row({0, 0}) + data_row({x, slope * x})),
+                                   fmt::format("using 1:2 with lines {}", words)));
+  };
+  ray(1, "lc rgb '#000000' lw 1");
+  ray(family.bias, "lc rgb '#D55E00' lw 1.3");
+  for (const double sign : {-2., 2.})
+    ray(family.bias * std::max(0.01, 1 + sign * family.scatter),
+        "lc rgb '#D55E00' lw 0.8 dt (6,3)");
+  for (std::size_t k = 0; k < family.verdicts.size(); ++k) {
+    std::string rows;
+    for (const auto& point : family.verdicts[k]->comparison.points)
+      rows += data_row({point.reference, point.result});
+    const auto style = curve_style(k);
+    layers.push_back(Canvas::layer(
+        canvas.block("reference, result", rows),
+        fmt::format("using 1:2 with points {} lc rgb '{}'", style.marker, style.colour)));
+  }
+  canvas.draw(layers);
+  auto caption = fmt::format(
+      "Black: equal; orange: mean bias {:.3g} (model over reference) and twice the scatter {:.2g}, "
+      "the reference's own ({:.2g}) taken out; {} points",
+      family.bias, family.scatter, family.sigma_experiment, family.points);
+  if (family.left_out > 0) caption += fmt::format(", {} not above 0 left out", family.left_out);
+  return drawn(canvas, name, title, caption + ".");
+}
+
+}  // namespace bedscope::report

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Metrics against closed forms, and their intervals against how often they hold.
+#include "validation/metrics.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "readers/error.hpp"
+
+namespace bedscope::validation {
+namespace {
+
+Comparison comparison(const std::vector<double>& result, const std::vector<double>& reference,
+                      double u_result = 0, double u_reference = 0) {
+  Comparison c{.x = {"z", "m"}, .y = {"holdup", "-"}};
+  for (std::size_t i = 0; i < result.size(); ++i)
+    c.points.push_back({.x = static_cast<double>(i),
+                        .result = result[i],
+                        .reference = reference[i],
+                        .u_result = u_result,
+                        .u_reference = u_reference});
+  return c;
+}
+
+double value(const char* metric, const Comparison& c) {
+  return evaluate(find_metric(metric), c).value;
+}
+
+TEST(Metrics, AreTheirFormulas) {
+  const auto c = comparison({1, 2, 6}, {2, 2, 4});
+  EXPECT_DOUBLE_EQ(value("relative rmse", c), std::sqrt(5. / 3) / (8. / 3));
+  EXPECT_DOUBLE_EQ(value("relative bias", c), (1. / 3) / (8. / 3));
+  EXPECT_DOUBLE_EQ(value("max error", c), 2);
+  EXPECT_DOUBLE_EQ(value("relative max error", c), 2 / (8. / 3));
+}
+
+TEST(Metrics, TheNoiseOfTheAverageIsTakenOffTheRmse) {
+  const auto c = comparison({1, 3, 1, 3}, {2, 2, 2, 2}, .6);
+  EXPECT_NEAR(value("relative rmse", c), std::sqrt(1 - .36) / 2, 1e-15);
+  EXPECT_EQ(value("relative rmse", comparison({1, 3}, {2, 2}, 1.5)), 0);
+}
+
+TEST(Metrics, ErrorOverUncertaintyIsThatOfVAndV20) {
+  EXPECT_NEAR(value("e over u", comparison({3, 3}, {2, 2}, .3, .4)), 2, 1e-12);
+  EXPECT_THROW(value("e over u", comparison({3}, {2})), InputError);
+}
+
+TEST(Metrics, RankCorrelationKnowsTies) {
+  EXPECT_DOUBLE_EQ(value("rank correlation", comparison({1, 2, 3, 4}, {10, 20, 30, 31})), 1);
+  EXPECT_DOUBLE_EQ(value("rank correlation", comparison({4, 3, 2, 1}, {10, 20, 30, 31})), -1);
+  // By hand: ranks 1 2.5 2.5 4 and 1 2 3 4 give 9 / sqrt(9 * 10) ... = 4.5 / sqrt(4.5 * 5).
+  EXPECT_NEAR(value("rank correlation", comparison({1, 2, 2, 4}, {1, 2, 3, 4})),
+              4.5 / std::sqrt(4.5 * 5), 1e-12);
+}
+
+TEST(Metrics, NamesAndZeroMeansAreToldApart) {
+  EXPECT_THROW(find_metric("relative rms"), InputError);
+  EXPECT_THROW(value("relative rmse", comparison({1, 2}, {-1, 1})), InputError);
+}
+
+TEST(Intervals, WithoutUncertaintyTheyAreTheValue) {
+  const auto found = evaluate(find_metric("relative rmse"), comparison({1, 2, 6}, {2, 2, 4}));
+  EXPECT_DOUBLE_EQ(found.lo, found.value);
+  EXPECT_DOUBLE_EQ(found.hi, found.value);
+  EXPECT_DOUBLE_EQ(found.reference_half_width, 0);
+}
+
+TEST(Intervals, OfABiasAreThoseOfACommonError) {
+  // A common error of 0.1 in a mean of 2: half-width 1.96 * 0.05.
+  const auto found =
+      evaluate(find_metric("relative bias"), comparison({3, 3, 3, 3}, {2, 2, 2, 2}, .1));
+  EXPECT_NEAR(found.hi - found.value, 1.96 * .05, .006);
+  EXPECT_NEAR(found.value - found.lo, 1.96 * .05, .006);
+  EXPECT_DOUBLE_EQ(found.reference_half_width, 0);
+}
+
+TEST(Intervals, WidenWithTheUncertainties) {
+  double last = 0;
+  for (const double u : {.01, .1, 1., 10.}) {
+    const auto found =
+        evaluate(find_metric("relative rmse"), comparison({3, 2, 3, 4}, {2, 2, 3, 3}, u, u));
+    EXPECT_GT(found.hi, last);
+    last = found.hi;
+  }
+}
+
+TEST(Intervals, HoldTheTrueRmseInNineteenOfTwentyOrMore) {
+  // A model that is off by 20 % everywhere, seen through noise in result and reference.
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> normal;
+  int held = 0;
+  constexpr int trials = 200, n = 30;
+  for (int k = 0; k < trials; ++k) {
+    std::vector<double> result, reference;
+    for (int i = 0; i < n; ++i) {
+      const double truth = 1 + i / 30.;
+      result.push_back(1.2 * truth + .1 * normal(random));
+      reference.push_back(truth + .1 * normal(random));
+    }
+    double squares = 0, mean = 0;
+    for (int i = 0; i < n; ++i) {
+      squares += std::pow(.2 * (1 + i / 30.), 2) / n;
+      mean += (1 + i / 30.) / n;
+    }
+    const auto found =
+        evaluate(find_metric("relative rmse"), comparison(result, reference, .1, .1));
+    held += found.lo <= std::sqrt(squares) / mean && std::sqrt(squares) / mean <= found.hi;
+  }
+  EXPECT_GE(held, trials * 93 / 100);
+}
+
+TEST(Intervals, AreTheSameEachTime) {
+  const auto c = comparison({1, 2, 6}, {2, 2, 4}, .2, .3);
+  const auto a = evaluate(find_metric("max error"), c), b = evaluate(find_metric("max error"), c);
+  EXPECT_EQ(a.lo, b.lo);
+  EXPECT_EQ(a.hi, b.hi);
+}
+
+TEST(Area, OfAShiftedDensityIsTheShift) {
+  std::vector<double> x, y, density;
+  for (int i = 0; i < 200; ++i) {
+    x.push_back(i * .05);
+    y.push_back(i * .05 + .73);
+    density.push_back(std::exp(-std::pow(i * .05 - 5, 2)));
+  }
+  EXPECT_NEAR(wasserstein(x, density, y, density), .73, 1e-12);
+  EXPECT_NEAR(wasserstein(x, density, x, density), 0, 1e-15);
+}
+
+TEST(Area, OfTwoUniformDensitiesIsByHand) {
+  // Uniform on [0, 1] against uniform on [0, 2]: integral of |F - G| = 1/2.
+  std::vector<double> a, b, one;
+  for (int i = 0; i < 10; ++i) {
+    a.push_back(.05 + i * .1);
+    b.push_back(.1 + i * .2);
+    one.push_back(1);
+  }
+  EXPECT_NEAR(wasserstein(a, one, b, one), .5, 1e-12);
+  const std::vector<double> falling{2, 1};
+  EXPECT_THROW(wasserstein(falling, falling, b, one), InputError);
+}
+
+}  // namespace
+}  // namespace bedscope::validation

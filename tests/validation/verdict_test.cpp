@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From a check to a verdict, on runs whose answer is known.
+#include "validation/verdict.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "readers/error.hpp"
+#include "validation/family.hpp"
+
+namespace bedscope::validation {
+namespace {
+
+/// A run whose axial holdup is `level` of 0.1 - 0.05 z, with intervals of `ci95`.
+analysis::RunResult run(const std::string& label, double level, double ci95) {
+  analysis::RunResult result;
+  result.label = label;
+  result.types = {"all"};
+  result.window = {.from = 5, .to = 15, .snapshots = 1001};
+  analysis::SpeciesResult all{.type = "all"};
+  for (int i = 0; i < 50; ++i) {
+    all.axial.coordinate.push_back((i + .5) * .02);
+    all.axial.holdup.push_back({level * (.1 - .05 * all.axial.coordinate.back()), ci95});
+    all.axial.velocity_z.push_back({1, ci95});
+    all.axial.mass_flux_z.push_back({2, ci95});
+  }
+  result.species.push_back(all);
+  result.mean_holdup = {.075 * level, ci95};
+  return result;
+}
+
+Check against(double number, const char* metric, double limit) {
+  return {.place = {.quantity = "mean holdup"}, .number = number, .metric = metric, .limit = limit};
+}
+
+Verdict verdict_of(const Check& check, const analysis::RunResult& result) {
+  return evaluate(check, std::vector{result}, Curves{}, "study.toml").at(0);
+}
+
+TEST(Judge, HoldsFailsOrIsUndecidedByItsWholeInterval) {
+  EXPECT_EQ(judge({.value = .1, .lo = .05, .hi = .15}, .2, true), Outcome::holds);
+  EXPECT_EQ(judge({.value = .1, .lo = .05, .hi = .25}, .2, true), Outcome::undecided);
+  EXPECT_EQ(judge({.value = .3, .lo = .25, .hi = .35}, .2, true), Outcome::does_not_hold);
+  EXPECT_EQ(judge({.value = .9, .lo = .85, .hi = .95}, .8, false), Outcome::holds);
+  EXPECT_EQ(judge({.value = .7, .lo = .65, .hi = .75}, .8, false), Outcome::does_not_hold);
+  EXPECT_EQ(judge({.value = .2, .lo = .2, .hi = .2}, .2, true), Outcome::holds);
+}
+
+TEST(Verdicts, OfSingleValuesAreByHand) {
+  const auto good = verdict_of(against(.075, "relative bias", .05), run("a", 1.02, .001));
+  EXPECT_NEAR(good.metric.value, .02, 1e-12);
+  EXPECT_EQ(good.outcome, Outcome::holds);
+  const auto bad = verdict_of(against(.075, "relative bias", .05), run("a", 1.2, .001));
+  EXPECT_EQ(bad.outcome, Outcome::does_not_hold);
+}
+
+TEST(Verdicts, InflatedErrorBarsDoNotPass) {
+  for (const char* metric :
+       {"relative rmse", "relative bias", "relative max error", "max error", "e over u"}) {
+    const double limit = std::string(metric) == "e over u" ? 2 : .1;
+    auto check = against(.075, metric, limit);
+    check.number_u = .0001;
+    EXPECT_NE(verdict_of(check, run("a", 1.5, .5)).outcome, Outcome::holds) << metric;
+    check.place.quantity = "axial holdup";
+    EXPECT_NE(verdict_of(check, run("a", 1.5, .5)).outcome, Outcome::holds) << metric;
+  }
+}
+
+TEST(Verdicts, ErrorOverUncertaintyAlsoNeedsAnAccuracy) {
+  auto check = against(.075, "e over u", 4);
+  check.number_u = .0005;
+  EXPECT_EQ(verdict_of(check, run("a", 1.005, .001)).outcome, Outcome::holds);
+  check.number_u = .02;  // 52 % of the mean
+  const auto vague = verdict_of(check, run("a", 1.005, .001));
+  EXPECT_EQ(vague.outcome, Outcome::undecided);
+  EXPECT_NE(vague.reason.find("accuracy"), std::string::npos);
+}
+
+TEST(Verdicts, TheUndecidedSayHowMuchMoreSimulationWouldSettleThem) {
+  // Half-width 0.02 / 0.075 about a bias of 0.02, limit 0.15: (0.267 / 0.13)^2 = 4.2 times 10 s.
+  const auto verdict = verdict_of(against(.075, "relative bias", .15), run("a", 1.02, .02));
+  EXPECT_EQ(verdict.outcome, Outcome::undecided);
+  EXPECT_NE(verdict.reason.find("s more of simulation would settle it (10 s were averaged)"),
+            std::string::npos)
+      << verdict.reason;
+}
+
+TEST(Verdicts, OrThatTheReferenceCannot) {
+  auto check = against(.075, "relative bias", .1);
+  check.number_u = .02;
+  const auto verdict = verdict_of(check, run("a", 1.02, .0001));
+  EXPECT_EQ(verdict.outcome, Outcome::undecided);
+  EXPECT_NE(verdict.reason.find("the reference cannot settle it"), std::string::npos);
+}
+
+TEST(Verdicts, AgainstAnotherRunAndAgainstAllOthers) {
+  const std::vector runs{run("a", 1, 1e-6), run("b", 1.1, 1e-6), run("c", 1.3, 1e-6)};
+  Check check{.place = {.quantity = "axial holdup"},
+              .against = "run:a",
+              .metric = "relative rmse",
+              .limit = .15};
+  const auto verdicts = evaluate(check, runs, Curves{}, "study.toml");
+  ASSERT_EQ(verdicts.size(), 2U);  // a is not judged by itself
+  EXPECT_EQ(verdicts[0].outcome, Outcome::holds);
+  EXPECT_EQ(verdicts[1].outcome, Outcome::does_not_hold);
+  check.against = "run:others";
+  const auto family = evaluate(check, runs, Curves{}, "study.toml");
+  ASSERT_EQ(family.size(), 3U);
+  // b against the mean of a and c, 1.15: 0.05 / 1.15 of a profile that is proportional.
+  EXPECT_NEAR(family[1].metric.value,
+              .05 / 1.15 * std::sqrt(1 + std::pow(.05 * .02 * 14.43 / .075, 2)), .002);
+}
+
+TEST(Verdicts, FaultsNameTheStudysLine) {
+  const auto text = [](Check check) {
+    check.line = 12;
+    try {
+      evaluate(check, std::vector{run("a", 1, .01)}, Curves{}, "study.toml");
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  Check check{
+      .place = {.quantity = "lateral holdup"}, .number = 1, .metric = "max error", .limit = 1};
+  EXPECT_NE(text(check).find("study.toml: line 12"), std::string::npos);
+  EXPECT_NE(text(check).find("expected at = { height"), std::string::npos) << text(check);
+  check.place = {.quantity = "mean temperature"};
+  EXPECT_NE(text(check).find("has no mean temperature"), std::string::npos);
+  check.place = {.quantity = "axial holdup", .species = "7"};
+  EXPECT_NE(text(check).find("no species \"7\""), std::string::npos);
+  check.place = {.quantity = "mean holdup"};
+  check.run = "b";
+  EXPECT_NE(text(check).find("no run \"b\", there are \"a\""), std::string::npos);
+}
+
+TEST(Families, TakeTheExperimentsOwnScatterOut) {
+  // Model = 1.3 E exp(N(0, s_M)), experiment seen with s_E: bias and s_M come back.
+  Verdict verdict{.check = {.place = {.quantity = "axial holdup"}}, .run = "a"};
+  constexpr int n = 4000;
+  constexpr double s_model = .2, s_experiment = .1;
+  for (int i = 0; i < n; ++i) {
+    // A quasi-random pair of normal deviates: sums of equidistributed sequences (Box and Muller).
+    const double u1 = (i + .5) / n, u2 = std::fmod(i * .6180339887498949, 1.);
+    const double r = std::sqrt(-2 * std::log(u1));
+    const double a = r * std::cos(2 * M_PI * u2), b = r * std::sin(2 * M_PI * u2);
+    const double reference = std::exp(s_experiment * b);
+    verdict.comparison.points.push_back({.x = 1. * i,
+                                         .result = 1.3 * std::exp(s_model * a),
+                                         .reference = reference,
+                                         .u_reference = s_experiment * reference});
+  }
+  const auto found = families(std::vector{verdict});
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_NEAR(found[0].scatter, s_model, .01);
+  EXPECT_NEAR(found[0].bias, 1.3 * std::exp(s_model * s_model / 2), .02);
+  EXPECT_EQ(found[0].left_out, 0U);
+}
+
+}  // namespace
+}  // namespace bedscope::validation

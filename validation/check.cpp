@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "validation/check.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "validation/metrics.hpp"
+#include "validation/shapes.hpp"
+
+namespace bedscope::validation {
+namespace {
+
+using readers::TomlTable;
+
+/// One of `names`, or an error that names the nearest.
+void require_name(const TomlTable& table, const toml::node& node, const char* key,
+                  const std::string& found, const std::set<std::string>& names) {
+  if (names.contains(found)) return;
+  table.fail(node, "check.{}: no {} \"{}\"; the nearest known one is \"{}\"", key, key, found,
+             readers::nearest_name(found, names));
+}
+
+std::map<std::string, double> numbers_of(TomlTable& table, const char* key) {
+  std::map<std::string, double> values;
+  auto part = table.table(key);
+  if (!part) return values;
+  for (const auto& [name, node] : part->raw())
+    values[std::string(name.str())] = part->number(node, part->key(name.str()));
+  return values;
+}
+
+void read_reference(TomlTable& table, Check& check) {
+  const auto* node = table.find("against");
+  check.number_u = table.number("uncertainty").value_or(0);
+  if (check.number_u < 0)
+    table.fail(*table.find("uncertainty"), "check.uncertainty: expected at least 0, found {}",
+               check.number_u);
+  if (node == nullptr) return;
+  if (node->is_number())
+    check.number = table.number(*node, "check.against");
+  else
+    check.against = table.text("against").value_or("");
+}
+
+void read_measure(TomlTable& table, Check& check) {
+  std::set<std::string> names{"area"};
+  for (const auto& metric : metrics()) names.emplace(metric.name);
+  for (const auto& shape : shapes()) names.emplace(shape.name);
+  const char* key = table.find("shape") != nullptr ? "shape" : "metric";
+  const auto* node = table.find(key);
+  if (node == nullptr)
+    table.fail(table.raw(), "check.metric is missing: expected a metric or a shape");
+  check.metric = table.text(key).value_or("");
+  require_name(table, *node, key, check.metric, names);
+  check.limit = table.number("limit");
+  check.accuracy = table.positive("accuracy").value_or(check.accuracy);
+  const bool is_shape = find_shape(check.metric) != nullptr;
+  const bool has_reference = check.number || !check.against.empty();
+  if (is_shape && has_reference)
+    table.fail(*table.find("against"), "check.against: the shape \"{}\" needs none", check.metric);
+  if (!is_shape && !has_reference)
+    table.fail(table.raw(),
+               "check.against is missing: expected a curve, \"theory:...\", \"run:...\", "
+               "\"baseline:...\" or a number");
+  if (!is_shape && !check.limit)
+    table.fail(table.raw(), "check.limit is missing: expected a number");
+}
+
+Check read_check(TomlTable& table) {
+  Check check;
+  check.line = table.raw().source().begin.line;
+  const auto quantity = table.text("quantity");
+  if (!quantity) table.fail(table.raw(), "check.quantity is missing: expected a text");
+  std::set<std::string> names;
+  for (const auto& each : quantities()) names.emplace(each.name);
+  require_name(table, *table.find("quantity"), "quantity", *quantity, names);
+  check.place = {*quantity, numbers_of(table, "at"), table.text("species").value_or("all")};
+  check.run = table.text("run").value_or("");
+  check.with = numbers_of(table, "with");
+  read_reference(table, check);
+  read_measure(table, check);
+  table.finish();
+  return check;
+}
+
+}  // namespace
+
+std::vector<Check> read_checks(TomlTable& study) {
+  std::vector<Check> checks;
+  for (auto& table : study.tables("check")) checks.push_back(read_check(table));
+  return checks;
+}
+
+std::vector<Check> read_checks(const std::string& study) {
+  const auto parsed = readers::parse_toml(study);
+  TomlTable table(parsed, "", study);
+  return read_checks(table);
+}
+
+}  // namespace bedscope::validation

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "validation/compare.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "readers/error.hpp"
+
+namespace bedscope::validation {
+namespace {
+
+/// The finite values of a result.
+Sampled seen(const Sampled& all) {
+  Sampled kept = all;
+  kept.at.clear();
+  kept.value.clear();
+  kept.u.clear();
+  for (std::size_t i = 0; i < all.at.size(); ++i) {
+    if (!std::isfinite(all.value[i])) continue;
+    kept.at.push_back(all.at[i]);
+    kept.value.push_back(all.value[i]);
+    kept.u.push_back(all.u[i]);
+  }
+  return kept;
+}
+
+/// The Lagrange polynomial through the points first ... first + count - 1 at x.
+double polynomial(const Sampled& curve, std::size_t first, std::size_t count, double x) {
+  double sum = 0;
+  for (std::size_t i = first; i < first + count; ++i) {
+    double term = curve.value[i];
+    for (std::size_t j = first; j < first + count; ++j)
+      if (j != i) term *= (x - curve.at[j]) / (curve.at[i] - curve.at[j]);
+    sum += term;
+  }
+  return sum;
+}
+
+ComparedPoint at_reference(const Sampled& result, const CurvePoint& reference) {
+  ComparedPoint point{.x = reference.x, .reference = reference.y};
+  if (result.at.size() == 1) {
+    point.result = result.value[0];
+    point.u_result = result.u[0];
+    point.u_reference = reference.u_y;
+    return point;
+  }
+  const auto above = std::upper_bound(result.at.begin() + 1, result.at.end() - 1, reference.x);
+  const auto k = static_cast<std::size_t>(above - result.at.begin());
+  const double width = result.at[k] - result.at[k - 1];
+  const double share = (reference.x - result.at[k - 1]) / width;
+  point.result = result.value[k - 1] + share * (result.value[k] - result.value[k - 1]);
+  // Neighbours in a profile err together, so that their errors do not average out.
+  point.u_result = (1 - share) * result.u[k - 1] + share * result.u[k];
+  const std::size_t count = std::min<std::size_t>(4, result.at.size());
+  const std::size_t first = std::min(k < 2 ? 0 : k - 2, result.at.size() - count);
+  point.u_interpolation = std::abs(polynomial(result, first, count, reference.x) - point.result);
+  const double slope = (result.value[k] - result.value[k - 1]) / width;
+  point.u_reference = std::hypot(reference.u_y, slope * reference.u_x);
+  return point;
+}
+
+void match(const Sampled& result, const std::vector<CurvePoint>& reference, Comparison& found) {
+  for (const auto& point : reference) {
+    const bool reached =
+        result.is_scalar || (point.x >= result.at.front() && point.x <= result.at.back());
+    if (reached)
+      found.points.push_back(at_reference(result, point));
+    else
+      found.outside.push_back(point);
+  }
+}
+
+double sum_of_squares(const Comparison& comparison) {
+  double sum = 0;
+  for (const auto& point : comparison.points) sum += point.error() * point.error();
+  return sum / static_cast<double>(std::max<std::size_t>(comparison.points.size(), 1));
+}
+
+/// The reference from the other wall: x becomes min + max - x of the result's range.
+std::vector<CurvePoint> turned(const Sampled& result, std::vector<CurvePoint> points) {
+  for (auto& point : points) point.x = result.at.front() + result.at.back() - point.x;
+  std::reverse(points.begin(), points.end());
+  return points;
+}
+
+}  // namespace
+
+double ComparedPoint::u_validation() const {
+  return std::sqrt(u_result * u_result + u_interpolation * u_interpolation +
+                   u_reference * u_reference);
+}
+
+Comparison compare(const Sampled& all, const Curve& reference, std::size_t least) {
+  if (all.y.unit != reference.y.unit || (!all.is_scalar && all.x.unit != reference.x.unit))
+    throw InputError("{}: {} against {}: expected the units of the result, {} against {}",
+                     reference.name, reference.y.text(), reference.x.text(), all.y.text(),
+                     all.x.text());
+  const auto result = seen(all);
+  Comparison found{
+      .x = all.x, .y = all.y, .error_known = all.error_known, .duration = all.duration};
+  if (!result.at.empty()) match(result, reference.points, found);
+  if (!reference.about.orientation_known && result.at.size() > 1) {
+    Comparison other = found;
+    other.points.clear();
+    other.outside.clear();
+    match(result, turned(result, reference.points), other);
+    if (other.points.size() >= found.points.size() &&
+        sum_of_squares(other) < sum_of_squares(found)) {
+      found = std::move(other);
+      found.mirrored = true;
+    }
+  }
+  if (found.points.size() < std::max<std::size_t>(least, 1)) {
+    if (result.at.empty()) throw InputError("{}: the run has no {}", reference.name, all.y.text());
+    throw InputError(
+        "{}: outside the result: {} from {:.4g} to {:.4g}, the run's from {:.4g} to {:.4g}",
+        reference.name, reference.x.text(), reference.points.front().x, reference.points.back().x,
+        result.at.front(), result.at.back());
+  }
+  return found;
+}
+
+}  // namespace bedscope::validation

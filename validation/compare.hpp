@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A result's curve brought to the abscissae of its reference.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "validation/curve.hpp"
+
+namespace bedscope::validation {
+
+/// A quantity of a run, along an abscissa or (one point, x = 0) a single value.
+struct Sampled {
+  Title x, y;
+  std::vector<double> at;  ///< ascending
+  std::vector<double> value;
+  std::vector<double> u;         ///< standard error of each value; 0 where it is not known
+  bool error_known = true;       ///< false: the run has no intervals (tables of another program)
+  bool is_scalar = false;        ///< one value, no abscissa
+  bool is_distribution = false;  ///< value is a probability density of `at`
+  double duration = 0;           ///< [s] averaged over; 0: not known
+};
+
+/// Result and reference at one abscissa.
+struct ComparedPoint {
+  double x = 0, result = 0, reference = 0;
+  double u_result = 0;         ///< standard error of the time average
+  double u_interpolation = 0;  ///< of the result between its own abscissae
+  double u_reference = 0;      ///< of its ordinate, and of its abscissa through the result's slope
+
+  double error() const { return result - reference; }
+  /// u_val of ASME V&V 20 (2009), eq. 1-5-4.
+  double u_validation() const;
+};
+
+struct Comparison {
+  Title x, y;
+  std::vector<ComparedPoint> points;
+  std::vector<CurvePoint> outside;  ///< points of the reference that the result does not reach
+  bool mirrored = false;            ///< the reference's abscissa was turned round: see compare()
+  bool error_known = true;
+  double duration = 0;
+};
+
+/// The result interpolated linearly to the abscissae of the reference, nowhere extrapolated (half a
+/// cell at the ends is not either). The interpolation's error is taken as its difference from the
+/// cubic through four neighbours. Non-finite values of the result are left out first.
+/// Where the reference does not say which end of its abscissa is which wall, it is turned round
+/// within the result's range if it fits better so, and `mirrored` says it.
+/// Throws InputError where fewer than `least` points of the reference are reached, or where units
+/// differ.
+Comparison compare(const Sampled& result, const Curve& reference, std::size_t least = 1);
+
+}  // namespace bedscope::validation

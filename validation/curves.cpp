@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "validation/curves.hpp"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <set>
+
+#include "analysis/csv.hpp"
+#include "readers/toml_table.hpp"
+#include "validation/sidecar.hpp"
+
+namespace bedscope::validation {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr double coverage_factor = 1.96;  // of a 95 % interval of a normal distribution
+
+/// Places of a set's columns in its rows.
+struct Columns {
+  std::size_t x = 0, y = 0;
+  std::optional<std::size_t> u_x, u_y, y_lo, y_hi;
+  std::vector<std::size_t> parameters;
+};
+
+std::optional<std::size_t> column_of(const analysis::CsvReader& rows, const std::string& name) {
+  const auto& header = rows.header();
+  for (std::size_t k = 0; k < header.size(); ++k)
+    if (header[k] == name || parse_title(header[k]).name == name) return k;
+  return std::nullopt;
+}
+
+std::size_t needed(const std::string& path, const analysis::CsvReader& rows,
+                   const std::string& name) {
+  if (const auto column = column_of(rows, name)) return *column;
+  throw FormatError("{}: line 1: expected a column \"{}\", found {}", path, name,
+                    fmt::join(rows.header(), ", "));
+}
+
+void need_unit(const std::string& path, const std::string& title) {
+  if (parse_title(title).unit.empty())
+    throw FormatError("{}: line 1: column \"{}\": expected its unit in brackets, such as \"z [m]\"",
+                      path, title);
+}
+
+/// The column of an axis' uncertainty: the one that the sidecar names, or <name>_u, <name>_ci95.
+std::optional<std::size_t> uncertainty_column(const std::string& path,
+                                              const analysis::CsvReader& rows,
+                                              const std::string& name, UncertaintyRule& rule) {
+  if (rule.column.empty() && !rule.absolute && !rule.relative)
+    for (const char* suffix : {"_u", "_ci95"})
+      if (column_of(rows, name + suffix)) rule.column = name + suffix;
+  if (rule.column.empty()) return std::nullopt;
+  rule.is_interval = rule.column.ends_with("_ci95");
+  return needed(path, rows, rule.column);
+}
+
+Columns find_columns(const std::string& path, const analysis::CsvReader& rows, Sidecar& sidecar) {
+  Columns columns;
+  const auto& header = rows.header();
+  if (sidecar.table) {
+    for (std::size_t k = 0; k < header.size(); ++k) columns.parameters.push_back(k);
+    return columns;
+  }
+  const auto is_extra = [](const std::string& name) {
+    for (const char* suffix : {"_u", "_ci95", "_lo", "_hi"})
+      if (name.ends_with(suffix)) return true;
+    return false;
+  };
+  std::vector<std::size_t> plain;
+  for (std::size_t k = 0; k < header.size(); ++k)
+    if (!is_extra(parse_title(header[k]).name)) plain.push_back(k);
+  if (plain.size() < 2)
+    throw FormatError("{}: line 1: expected an abscissa and an ordinate with their units, found {}",
+                      path, fmt::join(header, ", "));
+  columns.x =
+      sidecar.abscissa.empty() ? plain[plain.size() - 2] : needed(path, rows, sidecar.abscissa);
+  columns.y = sidecar.ordinate.empty() ? plain.back() : needed(path, rows, sidecar.ordinate);
+  need_unit(path, header[columns.x]);
+  need_unit(path, header[columns.y]);
+  const auto x = parse_title(header[columns.x]).name, y = parse_title(header[columns.y]).name;
+  columns.u_x = uncertainty_column(path, rows, x, sidecar.u_x);
+  columns.u_y = uncertainty_column(path, rows, y, sidecar.u_y);
+  columns.y_lo = column_of(rows, y + "_lo");
+  columns.y_hi = column_of(rows, y + "_hi");
+  for (const auto k : plain)
+    if (k != columns.x && k != columns.y && columns.u_x != k && columns.u_y != k)
+      columns.parameters.push_back(k);
+  return columns;
+}
+
+double finite(const analysis::CsvReader& rows, std::size_t column) {
+  const double value = rows.number(column);
+  if (!std::isfinite(value))
+    rows.fail(fmt::format("a number in \"{}\"", rows.header()[column]),
+              std::string(rows.text(column)));
+  return value;
+}
+
+/// Values of a text or number column in the order of numbers where all are numbers.
+std::vector<std::string> ordered(const std::set<std::string>& values) {
+  std::vector<std::string> sorted(values.begin(), values.end());
+  if (std::all_of(sorted.begin(), sorted.end(), [](const auto& v) { return to_number(v); }))
+    std::sort(sorted.begin(), sorted.end(),
+              [](const auto& a, const auto& b) { return *to_number(a) < *to_number(b); });
+  return sorted;
+}
+
+CurveSet read_set(const std::string& name, const std::string& path) {
+  CurveSet set{.name = name, .path = path};
+  auto sidecar = sidecar_of(path);
+  set.about = sidecar.about;
+  if (!fs::exists(path)) {
+    if (set.about.redistribute)
+      throw FileError("{}: missing beside its sidecar, which does not say redistribute = \"no\"",
+                      path);
+    set.available = false;
+    return set;
+  }
+  analysis::CsvReader rows(path);
+  const auto columns = find_columns(path, rows, sidecar);
+  if (!sidecar.table) {
+    set.x = parse_title(rows.header()[columns.x]);
+    set.y = parse_title(rows.header()[columns.y]);
+  }
+  std::vector<std::set<std::string>> values(columns.parameters.size());
+  while (rows.next()) {
+    ++set.points;
+    for (std::size_t k = 0; k < values.size(); ++k)
+      values[k].emplace(rows.text(columns.parameters[k]));
+    if (sidecar.table) continue;
+    finite(rows, columns.x);
+    finite(rows, columns.y);
+  }
+  if (set.points == 0) throw FormatError("{}: no rows: expected at least one point", path);
+  for (std::size_t k = 0; k < values.size(); ++k)
+    set.parameters.push_back(
+        {parse_title(rows.header()[columns.parameters[k]]), ordered(values[k])});
+  return set;
+}
+
+/// "name?U=5.55&height=0.8"
+std::pair<std::string, std::map<std::string, std::string>> parse_selection(
+    const std::string& selection) {
+  const auto question = selection.find('?');
+  std::map<std::string, std::string> chosen;
+  if (question == selection.npos) return {selection, chosen};
+  for (std::size_t at = question + 1; at <= selection.size();) {
+    const auto end = std::min(selection.find('&', at), selection.size());
+    const auto part = selection.substr(at, end - at);
+    const auto equals = part.find('=');
+    if (equals == part.npos || equals == 0)
+      throw InputError("{}: expected a selection such as \"?U=5.55&height=0.8\", found \"{}\"",
+                       selection, part);
+    chosen[part.substr(0, equals)] = part.substr(equals + 1);
+    at = end + 1;
+  }
+  return {selection.substr(0, question), chosen};
+}
+
+bool matches(std::string_view text, const std::string& wanted) {
+  if (text == wanted) return true;
+  const auto a = to_number(text), b = to_number(wanted);
+  return a && b && std::abs(*a - *b) <= 1e-6 * std::max(std::abs(*a), std::abs(*b));
+}
+
+void set_uncertainties(const Sidecar& sidecar, bool has_bars, Curve& curve) {
+  if (curve.points.empty()) return;
+  const bool digitised = sidecar.about.method != "original";
+  const auto fill = [&](const UncertaintyRule& rule, const Title& title, double CurvePoint::*value,
+                        double CurvePoint::*u, double share) {
+    const auto [low, high] = std::minmax_element(
+        curve.points.begin(), curve.points.end(),
+        [&](const CurvePoint& a, const CurvePoint& b) { return a.*value < b.*value; });
+    const double range = *high.*value - *low.*value;
+    const double assumed = digitised ? share * range : 0;
+    for (auto& point : curve.points) {
+      if (rule.absolute) point.*u = *rule.absolute;
+      if (rule.relative) point.*u = *rule.relative * std::abs(point.*value);
+      if (!rule.stated()) point.*u = assumed;
+    }
+    if (rule.stated()) return;
+    curve.assumptions.push_back(
+        digitised
+            ? fmt::format("{}: uncertainty of {} not stated; {:.1g} {} ({} % of its range) "
+                          "assumed as for a digitised plot",
+                          curve.name, title.name, assumed, title.unit, share * 100)
+            : fmt::format("{}: uncertainty of {} not stated; taken as 0", curve.name, title.name));
+  };
+  fill(sidecar.u_x, curve.x, &CurvePoint::x, &CurvePoint::u_x, assumed_u_x);
+  if (!has_bars) fill(sidecar.u_y, curve.y, &CurvePoint::y, &CurvePoint::u_y, assumed_u_y);
+}
+
+std::string choices(const CurveSet& set) {
+  std::string text;
+  for (const auto& parameter : set.parameters)
+    text += fmt::format("{}{} = {}", text.empty() ? "" : "; ", parameter.title.name,
+                        fmt::join(parameter.values, ", "));
+  return text;
+}
+
+/// For each parameter what its rows must hold: chosen, or given by the check's place.
+std::vector<std::string> wanted_values(const CurveSet& set, const std::string& selection,
+                                       std::map<std::string, std::string> chosen,
+                                       const std::map<std::string, double>& at) {
+  std::vector<std::string> wanted;
+  for (const auto& [title, values] : set.parameters) {
+    std::string value;
+    if (const auto named = chosen.find(title.name); named != chosen.end()) {
+      value = named->second;
+      chosen.erase(named);
+    } else if (const auto place = at.find(title.name); place != at.end()) {
+      value = fmt::format("{}", place->second);
+    } else {
+      wanted.emplace_back();  // any, if the rows that are left agree
+      continue;
+    }
+    if (std::none_of(values.begin(), values.end(),
+                     [&](const auto& v) { return matches(v, value); }))
+      throw InputError("{}: no point has {} = {}; there are {}", selection, title.name, value,
+                       choices(set));
+    wanted.push_back(value);
+  }
+  if (!chosen.empty())
+    throw InputError("{}: expected a choice among {}, found {}", selection,
+                     set.parameters.empty() ? "nothing" : choices(set), chosen.begin()->first);
+  return wanted;
+}
+
+Curve read_curve(const CurveSet& set, const std::string& selection,
+                 const std::vector<std::string>& wanted) {
+  auto sidecar = sidecar_of(set.path);
+  analysis::CsvReader rows(set.path);
+  const auto columns = find_columns(set.path, rows, sidecar);
+  Curve curve{.name = selection, .path = set.path, .x = set.x, .y = set.y, .about = set.about};
+  std::vector<std::set<std::string>> left(wanted.size());
+  const bool has_bars = columns.y_lo && columns.y_hi && !columns.u_y;
+  while (rows.next()) {
+    bool mine = true;
+    for (std::size_t k = 0; k < wanted.size(); ++k)
+      mine = mine && (wanted[k].empty() || matches(rows.text(columns.parameters[k]), wanted[k]));
+    if (!mine) continue;
+    for (std::size_t k = 0; k < wanted.size(); ++k)
+      left[k].emplace(rows.text(columns.parameters[k]));
+    CurvePoint point{finite(rows, columns.x), finite(rows, columns.y)};
+    const double factor_x = sidecar.u_x.is_interval ? coverage_factor : 1;
+    const double factor_y = sidecar.u_y.is_interval ? coverage_factor : 1;
+    if (columns.u_x) point.u_x = finite(rows, *columns.u_x) / factor_x;
+    if (columns.u_y) point.u_y = finite(rows, *columns.u_y) / factor_y;
+    if (has_bars)
+      point.u_y = std::abs(finite(rows, *columns.y_hi) - finite(rows, *columns.y_lo)) /
+                  (2 * coverage_factor);
+    curve.points.push_back(point);
+  }
+  // A column without a unit is a label of the source; the numbers beside it choose.
+  for (std::size_t k = 0; k < wanted.size(); ++k)
+    if (left[k].size() > 1 && !set.parameters[k].title.unit.empty())
+      throw InputError("{}: several curves: expected a choice of {}, found {} = {}; there are {}",
+                       selection, set.parameters[k].title.name, set.parameters[k].title.name,
+                       fmt::join(ordered(left[k]), ", "), choices(set));
+  if (curve.points.empty())
+    throw InputError("{}: no point is left; there are {}", selection, choices(set));
+  std::stable_sort(curve.points.begin(), curve.points.end(),
+                   [](const CurvePoint& a, const CurvePoint& b) { return a.x < b.x; });
+  if (has_bars)
+    curve.assumptions.push_back(
+        fmt::format("{}: error bars of {} taken as 95 % intervals", selection, curve.y.name));
+  set_uncertainties(sidecar, has_bars, curve);
+  return curve;
+}
+
+}  // namespace
+
+Curves Curves::open(std::span<const std::string> folders) {
+  Curves curves;
+  std::set<std::string> seen;
+  for (const auto& folder : folders) {
+    if (!fs::is_directory(folder)) throw FileError("{}: expected a folder of curves", folder);
+    std::set<std::string> names;
+    for (const auto& item : fs::recursive_directory_iterator(folder)) {
+      const auto extension = item.path().extension();
+      if (!item.is_regular_file() || (extension != ".csv" && extension != ".toml")) continue;
+      names.insert(fs::path(item.path()).replace_extension().lexically_relative(folder).string());
+    }
+    for (const auto& name : names)
+      if (seen.insert(name).second)
+        curves.sets_.push_back(read_set(name, (fs::path(folder) / name).string() + ".csv"));
+  }
+  std::sort(curves.sets_.begin(), curves.sets_.end(),
+            [](const CurveSet& a, const CurveSet& b) { return a.name < b.name; });
+  return curves;
+}
+
+Curve Curves::curve(const std::string& selection, const std::map<std::string, double>& at) const {
+  const auto [name, chosen] = parse_selection(selection);
+  const auto found =
+      std::find_if(sets_.begin(), sets_.end(),
+                   [&, &name = name](const CurveSet& set) { return set.name == name; });
+  CurveSet set;
+  if (found != sets_.end()) {
+    set = *found;
+  } else if (name.ends_with(".csv")) {
+    if (!fs::exists(name)) throw InputError("{}: no such file, expected a curve", name);
+    set = read_set(name, name);
+  } else {
+    std::set<std::string> names;
+    for (const auto& each : sets_) names.insert(each.name);
+    throw InputError("{}: no such curve; the nearest known one is {} (bedscope curves lists them)",
+                     name, readers::nearest_name(name, names));
+  }
+  if (!set.available)
+    throw MissingCurve("{}: its numbers may not be passed on; supply {} ({})", name, set.path,
+                       set.about.citation);
+  if (set.x.name.empty())
+    throw InputError("{}: a table of values, not a curve: expected an abscissa and an ordinate",
+                     name);
+  return read_curve(set, selection, wanted_values(set, selection, chosen, at));
+}
+
+}  // namespace bedscope::validation

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How far a result is from its reference, as one number with its 95 % interval.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "validation/compare.hpp"
+
+namespace bedscope::validation {
+
+/// A number and its 95 % interval from all uncertainties, and from the reference's alone: what no
+/// longer simulation would narrow.
+struct MetricValue {
+  double value = 0, lo = 0, hi = 0;
+  double reference_half_width = 0;
+  std::string unit = "-";
+};
+
+/// The metrics of profiles and single values. All take E = result - reference at the points of a
+/// comparison; n points; m the mean of the reference over them.
+struct Metric {
+  std::string_view name;
+  std::string_view meaning;
+  bool small_is_good = true;  ///< false: the limit is a lower one (correlation)
+  bool per_mean = true;       ///< in units of m; needs m != 0
+  std::size_t least_points = 1;
+};
+
+/// In the order of the manual:
+///   relative rmse       sqrt(max(0, sum E^2 / n - sum u_result^2 / n)) / |m|: the scatter that the
+///                       noise of the time average adds by itself is taken off
+///   relative bias       |sum E / n| / |m|
+///   relative max error  max |E| / |m|
+///   max error           max |E|, in the quantity's unit
+///   e over u            sqrt(sum (E / u_val)^2 / n), ASME V&V 20 (2009) section 1-5
+///   rank correlation    Spearman's, of result and reference over the points
+std::span<const Metric> metrics();
+
+/// The one of that name. Throws InputError naming the nearest.
+const Metric& find_metric(const std::string& name);
+
+/// Value and interval of a metric: 2,000 draws of all errors, once with errors that are independent
+/// from point to point and once with errors common to all points (what is true lies between, and
+/// nobody knows where), the wider ends taken. The draws' own scatter is subtracted where a metric
+/// would count it (rmse, e over u); elsewhere the interval is the union of the percentile and the
+/// reflected one (Davison and Hinkley, Bootstrap Methods, 1997, section 5.2). Always the same
+/// draws. Throws InputError for a reference of zero mean, or "e over u" without any uncertainty.
+MetricValue evaluate(const Metric& metric, const Comparison& comparison);
+
+/// 1-Wasserstein distance of two distributions given by densities on abscissae of their own, in the
+/// unit of the abscissa: the area between their cumulative curves ("area metric", Ferson,
+/// Oberkampf and Ginzburg 2008). Densities are normalised, and constant within their bins.
+/// Throws InputError for abscissae that do not ascend, or a density without positive area.
+double wasserstein(std::span<const double> x1, std::span<const double> density1,
+                   std::span<const double> x2, std::span<const double> density2);
+MetricValue evaluate_area(const Sampled& result, const Curve& reference);
+
+/// A statistic of a curve under its errors: as for the metrics.
+MetricValue with_interval(const Sampled& curve,
+                          const std::function<double(std::span<const double>)>& statistic);
+
+}  // namespace bedscope::validation

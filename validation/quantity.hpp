@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The quantities of a run that can be judged, by the names that a study uses.
+#pragma once
+
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "analysis/result.hpp"
+#include "validation/compare.hpp"
+
+namespace bedscope::validation {
+
+/// What of which run, and where.
+struct Place {
+  std::string quantity;              ///< "lateral holdup"
+  std::map<std::string, double> at;  ///< height [m], of lateral profiles
+  std::string species = "all";
+};
+
+struct NamedQuantity {
+  std::string_view name;
+  std::string_view unit;
+  bool is_profile = false;
+  bool needs_height = false;
+};
+
+std::span<const NamedQuantity> quantities();
+
+/// The quantity of a run with its standard errors (half-widths of 95 % intervals / 1.96; 0 and
+/// `error_known` false where the run has none). Profiles along z or x [m], distributions along
+/// their own abscissa, single values at 0.
+/// Throws InputError: no such quantity (names the nearest), no such species or height in the run
+/// (lists what there is), nothing seen.
+Sampled sample(const analysis::RunResult& run, const Place& place);
+
+/// The same as a reference for another run.
+Curve as_curve(const Sampled& sampled, const std::string& name);
+
+}  // namespace bedscope::validation

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "validation/theory.hpp"
+
+#include <fmt/ranges.h>
+
+#include <array>
+#include <cmath>
+#include <set>
+#include <span>
+#include <stdexcept>
+#include <string_view>
+#include <vector>
+
+#include "physics/fixed_bed.hpp"
+#include "physics/minimum_fluidisation.hpp"
+#include "physics/packing.hpp"
+#include "physics/particle_motion.hpp"
+#include "physics/well_mixed_bed.hpp"
+#include "readers/error.hpp"
+#include "readers/toml_table.hpp"
+
+namespace bedscope::validation {
+namespace {
+
+using analysis::RunResult;
+
+/// Parameters of a check, by name; all of a theory's are there when it is asked.
+class Parameters {
+ public:
+  explicit Parameters(const std::map<std::string, double>& values) : values_(&values) {}
+  double operator()(const char* name) const { return values_->at(name); }
+  double or_else(const char* name, double otherwise) const {
+    const auto found = values_->find(name);
+    return found != values_->end() ? found->second : otherwise;
+  }
+
+ private:
+  const std::map<std::string, double>* values_;
+};
+
+physics::Sphere sphere(const Parameters& with) {
+  return {with("diameter"), with("particle_density")};
+}
+physics::Gas gas(const Parameters& with) { return {with("gas_density"), with("gas_viscosity")}; }
+
+double bed_weight(const Parameters& with, const RunResult& run, double) {
+  return physics::bed_pressure_drop(with.or_else("mass", run.inventory_mass.value), with("area"),
+                                    with("particle_density"), with("gas_density"), with("gravity"));
+}
+
+double terminal_velocity(const Parameters& with, const RunResult&, double) {
+  return physics::terminal_velocity(sphere(with), gas(with), with("gravity"));
+}
+
+double minimum_fluidisation(const Parameters& with, const RunResult&, double) {
+  return physics::minimum_fluidisation_velocity(sphere(with), gas(with), with("gravity"),
+                                                with("voidage"));
+}
+
+/// Of the particles that the check's `source` heats; `fraction` of the solids' volume is so.
+double well_mixed_bed(const Parameters& with, const RunResult&, double) {
+  const double fraction = with.or_else("fraction", 1);
+  const std::array<physics::HeatedFraction, 2> fractions{
+      {{fraction, with("source")}, {1 - fraction, with.or_else("other_source", 0)}}};
+  return physics::equilibrium_temperatures(
+             {with("inlet_temperature"), with("superficial_velocity"), with("gas_heat_capacity"),
+              with("solids_height"), with("diameter"), with("heat_transfer_coefficient")},
+             fractions)
+      .particle[0];
+}
+
+double fixed_bed(const Parameters& with, const RunResult&, double z) {
+  return physics::fixed_bed_temperatures(
+             {with("voidage"), with("superficial_velocity"), with("gas_heat_capacity"),
+              with("solids_heat_capacity"), with("heat_exchange"), with("initial_temperature"),
+              with("inlet_temperature"), with.or_else("source", 0)},
+             z - with.or_else("bottom", 0), with("time"))
+      .particle;
+}
+
+double random_close_packing(const Parameters&, const RunResult&, double) {
+  return physics::random_close_packing;
+}
+
+struct Theory {
+  std::string_view name;
+  std::string_view unit;
+  double (*value)(const Parameters& with, const RunResult& run, double x);
+  std::vector<std::string_view> needed, optional;
+  std::string_view source;
+};
+
+std::span<const Theory> theories() {
+  static const std::vector<Theory> all{
+      {"bed weight",
+       "Pa",
+       bed_weight,
+       {"area", "particle_density", "gas_density", "gravity"},
+       {"mass"},
+       "momentum balance of a fluidised bed"},
+      {"fixed bed",
+       "K",
+       fixed_bed,
+       {"voidage", "superficial_velocity", "gas_heat_capacity", "solids_heat_capacity",
+        "heat_exchange", "initial_temperature", "inlet_temperature", "time"},
+       {"source", "bottom"},
+       "Anzelius (1926), Schumann (1929)"},
+      {"minimum fluidisation",
+       "m/s",
+       minimum_fluidisation,
+       {"diameter", "particle_density", "gas_density", "gas_viscosity", "gravity", "voidage"},
+       {},
+       "Ergun (1952)"},
+      {"random close packing", "-", random_close_packing, {}, {}, "Scott and Kilgour (1969)"},
+      {"terminal velocity",
+       "m/s",
+       terminal_velocity,
+       {"diameter", "particle_density", "gas_density", "gas_viscosity", "gravity"},
+       {},
+       "Schiller and Naumann (1935)"},
+      {"well-mixed bed",
+       "K",
+       well_mixed_bed,
+       {"inlet_temperature", "superficial_velocity", "gas_heat_capacity", "solids_height",
+        "diameter", "heat_transfer_coefficient", "source"},
+       {"fraction", "other_source"},
+       "Mu (2022), Eqs. 2.15-2.17"},
+  };
+  return all;
+}
+
+const Theory& find_theory(const std::string& name) {
+  std::set<std::string> names;
+  for (const auto& theory : theories()) {
+    if (theory.name == name) return theory;
+    names.emplace(theory.name);
+  }
+  throw InputError("no theory \"{}\"; the nearest known one is \"{}\"", name,
+                   readers::nearest_name(name, names));
+}
+
+void require_parameters(const Theory& theory, const std::map<std::string, double>& with) {
+  std::set<std::string> known;
+  for (const auto name : theory.needed) {
+    known.emplace(name);
+    if (!with.contains(std::string(name)))
+      throw InputError("theory \"{}\": with.{} is missing; it needs {}", theory.name, name,
+                       fmt::join(theory.needed, ", "));
+  }
+  for (const auto name : theory.optional) known.emplace(name);
+  for (const auto& [name, value] : with)
+    if (!known.contains(name))
+      throw InputError("theory \"{}\": unknown key with.{}; the nearest known one is with.{}",
+                       theory.name, name, readers::nearest_name(name, known));
+}
+
+}  // namespace
+
+Curve theory_curve(const std::string& name, const std::map<std::string, double>& with,
+                   const RunResult& run, const Sampled& result) {
+  const auto& theory = find_theory(name);
+  require_parameters(theory, with);
+  if (theory.unit != result.y.unit)
+    throw InputError("theory \"{}\": gives {}, {} is in {}", name, theory.unit, result.y.name,
+                     result.y.unit);
+  Curve curve{.name = "theory " + name, .x = result.x, .y = result.y};
+  curve.about.citation = theory.source;
+  curve.about.kind = "theory";
+  const Parameters parameters(with);
+  try {
+    for (const double x : result.at) curve.points.push_back({x, theory.value(parameters, run, x)});
+  } catch (const std::domain_error& error) {
+    throw InputError("theory \"{}\": {}", name, error.what());
+  }
+  return curve;
+}
+
+}  // namespace bedscope::validation
