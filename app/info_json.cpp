@@ -143,7 +143,8 @@ std::string info_json(const InfoReport& report) {
   json["snapshots_read"] = survey.snapshots_read;
   json["problems"] = survey.problems;
   for (auto& text : texts(checkup.problems)) json["problems"].push_back(std::move(text));
-  json["notes"] = texts(checkup.notes);
+  json["notes"] = series.notes();
+  for (auto& text : texts(checkup.notes)) json["notes"].push_back(std::move(text));
   json["spacing"] = spacing(checkup.spacing);
   json["column_ranges"] = columns(survey);
   json["species"] = species(survey);

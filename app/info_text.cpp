@@ -219,7 +219,9 @@ std::string findings_text(const InfoReport& report) {
     if (companions.size() > most_companions)
       text += fmt::format("  and {} more kinds\n", companions.size() - most_companions);
   }
-  if (!report.checkup.notes.empty()) text += "\nworth knowing\n";
+  const auto& how_read = report.series.notes();
+  if (!report.checkup.notes.empty() || !how_read.empty()) text += "\nworth knowing\n";
+  for (const auto& note : how_read) text += fmt::format("  - {}\n", note);
   for (const auto& note : report.checkup.notes) text += fmt::format("  - {}\n", note.text);
   const auto& survey = report.survey;
   if (survey.problems.empty() && report.checkup.problems.empty())

@@ -201,7 +201,7 @@ void take_indices(Sorted& sorted, Groups& groups, DumpFolder& found) {
   std::set<std::string> taken;
   for (auto& index : choose_indices(std::move(sorted.indices), found)) {
     taken.insert(index.content.named.begin(), index.content.named.end());
-    for (auto& problem : index.content.problems) found.problems.push_back(std::move(problem));
+    for (auto& note : index.content.notes) found.notes.push_back(std::move(note));
     if (index.content.error.empty())
       add_units(index, groups, sorted.strangers);
     else

@@ -47,6 +47,7 @@ struct DumpFolder {
   std::vector<std::string> left_out;        ///< companions and strangers, with what they are
   std::vector<std::string> unfinished;      ///< later than the last dump and not yet readable
   std::vector<std::string> problems;        ///< worth a warning
+  std::vector<std::string> notes;           ///< worth knowing
   std::vector<std::string> columns, parts;  ///< of the first dump: see Located
 };
 

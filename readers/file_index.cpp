@@ -122,7 +122,7 @@ void drop_running_number(const std::string& path, FileIndex& index) {
   for (std::size_t i = 0; i < index.snapshots.size(); ++i)
     if (index.snapshots[i].time != static_cast<double>(i)) return;
   for (auto& snapshot : index.snapshots) snapshot.time = unknown;
-  index.problems.push_back(fmt::format(
+  index.notes.push_back(fmt::format(
       "{}: its times 0, 1, 2 ... are a running number: the numbers of the file names are the steps",
       path));
 }

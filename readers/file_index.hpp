@@ -56,7 +56,7 @@ struct IndexedSnapshot {
 struct FileIndex {
   std::vector<IndexedSnapshot> snapshots;
   std::vector<std::string> named;  ///< every path that it names, indices included
-  std::vector<std::string> problems;
+  std::vector<std::string> notes;  ///< worth knowing, nothing wrong
   std::string error;  ///< why it cannot be used; empty if it can
 };
 

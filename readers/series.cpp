@@ -77,7 +77,7 @@ Series Series::open(const std::string& where, const SeriesOptions& options) {
   const auto& first = series.located(0);
   if (first.columns != nullptr) series.columns_ = *first.columns;
   if (first.parts != nullptr) series.parts_ = *first.parts;
-  for (auto* lines : {&series.problems_, &series.left_out_})
+  for (auto* lines : {&series.problems_, &series.notes_, &series.left_out_})
     for (auto& line : *lines) line = one_line(line);
   return series;
 }
@@ -101,6 +101,7 @@ void Series::open_files(const std::string& where, std::vector<std::string> paths
   form_ = folder.form;
   left_out_ = std::move(folder.left_out);
   problems_ = std::move(folder.problems);
+  notes_ = std::move(folder.notes);
   columns_ = std::move(folder.columns);
   parts_ = std::move(folder.parts);
   for (const auto& unit : folder.units) {

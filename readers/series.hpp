@@ -77,6 +77,8 @@ class Series {
 
   /// Things that a user should know, one line each: a cut last dump, steps out of order, two runs.
   const std::vector<std::string>& problems() const { return problems_; }
+  /// How it was read, where nothing is wrong: an index whose times only count.
+  const std::vector<std::string>& notes() const { return notes_; }
   /// Files of the folder that are not particle dumps, with what they are.
   const std::vector<std::string>& left_out() const { return left_out_; }
   /// The last file breaks off inside its last snapshot (a run killed, or still writing).
@@ -109,7 +111,7 @@ class Series {
   const Form* form_ = nullptr;
   std::vector<std::string> files_;
   std::vector<Entry> entries_;
-  std::vector<std::string> columns_, parts_, problems_, left_out_;
+  std::vector<std::string> columns_, parts_, problems_, notes_, left_out_;
   std::shared_ptr<const std::vector<std::string>> names_;  // of options_.columns
   std::size_t lone_pieces_ = 0;
   bool cut_ = false, has_steps_ = true, named_ = true, unused_names_ = false;

@@ -131,7 +131,7 @@ TEST(FileIndex, TimesThatOnlyCountAreNoTimes) {
   const auto series = Series::open(folder.path());
   EXPECT_EQ(look(series).steps, (std::vector<std::int64_t>{1000, 1500}));
   EXPECT_TRUE(std::isnan(series.time(1)));
-  EXPECT_NE(all(series.problems()).find("running number"), std::string::npos);
+  EXPECT_NE(all(series.notes()).find("running number"), std::string::npos);
 }
 
 TEST(FileIndex, WithoutNumbersInTheNamesSnapshotsAreNumberedByTime) {
