@@ -4,6 +4,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <functional>
 
 namespace bedscope::app {
 
@@ -16,8 +17,12 @@ struct Common {
   bool json = false;
 };
 
+/// Runs `program`: its exit code, with one line on stderr where it throws.
+int exit_code_of(const std::function<void()>& program);
+
 void add_common(CLI::App& command, Common& common);
 void add_analyse(CLI::App& app);
+void add_digitise(CLI::App& app);
 void add_info(CLI::App& app);
 
 }  // namespace bedscope::app

@@ -1,27 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <fmt/format.h>
-
-#include <cstdio>
-#include <exception>
-#include <new>
-
 #include "app/commands.hpp"
-#include "readers/error.hpp"
-
-namespace bedscope::app {
-
-void add_common(CLI::App& command, Common& common) {
-  command.add_option("--threads", common.threads, "threads; the results do not depend on it")
-      ->check(CLI::Range(1, 4096));
-  command.add_flag("--quiet", common.quiet, "say nothing but errors");
-  command.add_flag("--json", common.json, "print one JSON object");
-}
-
-}  // namespace bedscope::app
 
 int main(int argc, char** argv) {
   using namespace bedscope;
-  try {
+  return app::exit_code_of([&] {
     CLI::App app(
         "Gas-solid fluidised beds and risers: what LIGGGHTS and OpenFOAM wrote, reduced to "
         "holdup, flux, profiles and clusters with their errors");
@@ -30,23 +12,11 @@ int main(int argc, char** argv) {
     app.require_subcommand(1);
     app::add_info(app);
     app::add_analyse(app);
+    app::add_digitise(app);
     try {
       app.parse(argc, argv);
     } catch (const CLI::Success& asked) {  // --help, --version
-      return app.exit(asked);
-    } catch (const CLI::ParseError& error) {
-      fmt::print(stderr, "bedscope: {} (see bedscope --help)\n", error.what());
-      return app::bad_input;
+      app.exit(asked);
     }
-    return app::done;
-  } catch (const Error& error) {
-    fmt::print(stderr, "bedscope: {}\n", error.what());
-    return app::bad_input;
-  } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "bedscope: out of memory\n");
-    return app::internal_error;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "bedscope: internal error: {}\n", error.what());
-    return app::internal_error;
-  }
+  });
 }

@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/study.hpp"
 
-#include <toml++/toml.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <numeric>
 #include <set>
 #include <sstream>
 
+#include "app/toml_table.hpp"
 #include "readers/error.hpp"
 
 namespace bedscope::app {
@@ -19,160 +16,6 @@ namespace {
 
 using analysis::RunSettings;
 using analysis::SpeciesRule;
-
-/// Levenshtein (1966): the least number of insertions, deletions and replacements.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), 0);
-  for (const char letter : a) {
-    std::size_t diagonal = row[0]++;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t replaced = diagonal + (letter != b[j]);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({row[j + 1] + 1, row[j] + 1, replaced});
-    }
-  }
-  return row.back();
-}
-
-/// What a TOML node is, for messages.
-std::string found_text(const toml::node& node) {
-  std::ostringstream text;
-  switch (node.type()) {
-    case toml::node_type::string:
-      text << '"' << node.value_or(std::string{}) << '"';
-      break;
-    case toml::node_type::table:
-      return "a table";
-    case toml::node_type::array:
-      return "an array";
-    default:
-      node.visit([&](const auto& value) {
-        if constexpr (toml::is_value<decltype(value)>) text << value.get();
-      });
-  }
-  return text.str();
-}
-
-/// A table of the study, read key by key; what was never asked for is unknown.
-class Table {
- public:
-  Table(const toml::table& table, std::string name, const std::string& path)
-      : table_(&table), name_(std::move(name)), path_(&path) {}
-
-  template <class... T>
-  [[noreturn]] void fail(const toml::node& node, fmt::format_string<T...> text,
-                         T&&... values) const {
-    throw InputError("{}: line {}: {}", *path_, node.source().begin.line,
-                     fmt::format(text, std::forward<T>(values)...));
-  }
-
-  const toml::node* find(std::string_view key) {
-    known_.insert(std::string(key));
-    return table_->get(key);
-  }
-  std::string key(std::string_view name) const {
-    return name_.empty() ? std::string(name) : fmt::format("{}.{}", name_, name);
-  }
-
-  std::optional<std::string> text(std::string_view name) {
-    const auto* node = find(name);
-    if (node == nullptr) return std::nullopt;
-    if (!node->is_string())
-      fail(*node, "{}: expected a text, found {}", key(name), found_text(*node));
-    return node->value<std::string>();
-  }
-
-  std::optional<double> number(std::string_view name) {
-    const auto* node = find(name);
-    if (node == nullptr) return std::nullopt;
-    return number(*node, key(name));
-  }
-  double number(const toml::node& node, const std::string& what) const {
-    const auto value = node.is_number() ? node.value<double>() : std::nullopt;
-    if (!value || !std::isfinite(*value))
-      fail(node, "{}: expected a number, found {}", what, found_text(node));
-    return *value;
-  }
-  std::optional<double> positive(std::string_view name) {
-    const auto value = number(name);
-    if (value && !(*value > 0))
-      fail(*find(name), "{}: expected a number above 0, found {}", key(name), *value);
-    return value;
-  }
-  std::optional<std::int64_t> integer(std::string_view name) {
-    const auto* node = find(name);
-    if (node == nullptr) return std::nullopt;
-    if (!node->is_integer())
-      fail(*node, "{}: expected an integer, found {}", key(name), found_text(*node));
-    return node->value<std::int64_t>();
-  }
-
-  std::optional<std::vector<double>> numbers(std::string_view name) {
-    const auto* node = find(name);
-    if (node == nullptr) return std::nullopt;
-    if (!node->is_array())
-      fail(*node, "{}: expected an array of numbers, found {}", key(name), found_text(*node));
-    std::vector<double> values;
-    for (const auto& item : *node->as_array()) values.push_back(number(item, key(name)));
-    return values;
-  }
-  std::optional<std::vector<std::string>> texts(std::string_view name) {
-    const auto* node = find(name);
-    if (node == nullptr) return std::nullopt;
-    if (!node->is_array())
-      fail(*node, "{}: expected an array of texts, found {}", key(name), found_text(*node));
-    std::vector<std::string> values;
-    for (const auto& item : *node->as_array()) {
-      if (!item.is_string())
-        fail(item, "{}: expected a text, found {}", key(name), found_text(item));
-      values.push_back(item.value_or(std::string{}));
-    }
-    return values;
-  }
-  std::optional<Table> table(std::string_view name) {
-    const auto* node = find(name);
-    if (node == nullptr) return std::nullopt;
-    if (!node->is_table())
-      fail(*node, "{}: expected a table, found {}", key(name), found_text(*node));
-    return Table(*node->as_table(), key(name), *path_);
-  }
-  std::vector<Table> tables(std::string_view name) {
-    std::vector<Table> found;
-    const auto* node = find(name);
-    if (node == nullptr) return found;
-    if (!node->is_array_of_tables())
-      fail(*node, "{}: expected [[{}]], found {}", key(name), name, found_text(*node));
-    for (const auto& item : *node->as_array())
-      found.emplace_back(*item.as_table(), std::string(name), *path_);
-    return found;
-  }
-  const toml::table& raw() const { return *table_; }
-
-  /// Every key that nobody asked for is an error that names the nearest known one.
-  void finish() const {
-    for (const auto& [name, node] : *table_) {
-      if (known_.contains(std::string(name.str()))) continue;
-      std::string nearest;
-      std::size_t least = ~std::size_t{0};
-      for (const auto& candidate : known_) {
-        const auto distance = edit_distance(name.str(), candidate);
-        if (distance < least) {
-          least = distance;
-          nearest = candidate;
-        }
-      }
-      throw InputError("{}: line {}: unknown key {}; the nearest known one is {}", *path_,
-                       name.source().begin.line, key(name.str()), key(nearest));
-    }
-  }
-
- private:
-  const toml::table* table_;
-  std::string name_;
-  const std::string* path_;
-  std::set<std::string> known_;
-};
 
 int axis_number(Table& table, std::string_view key, int otherwise) {
   const auto text = table.text(key);
@@ -422,16 +265,7 @@ StudyRun read_run(Table& table, RunSettings settings, const std::filesystem::pat
 }  // namespace
 
 Study read_study(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw FileError("{}: cannot be read", path);
-  const std::string content((std::istreambuf_iterator<char>(file)),
-                            std::istreambuf_iterator<char>());
-  toml::table parsed;
-  try {
-    parsed = toml::parse(content, path);
-  } catch (const toml::parse_error& error) {
-    throw InputError("{}: line {}: {}", path, error.source().begin.line, error.description());
-  }
+  const auto parsed = parse_toml(path);
   Table table(parsed, "", path);
   Study study;
   study.title = table.text("title").value_or(std::filesystem::path(path).stem().string());

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Vertical error bars: thin strokes that start at a marker, with or without caps.
+#pragma once
+
+#include "validation/digitise/markers.hpp"
+
+namespace bedscope::digitise {
+
+struct ErrorBar {
+  double lower = 0,
+         upper = 0;  ///< rows of the ends (lower: the larger row); NaN where none is seen
+};
+
+/// The bar of a marker at `at`, whose template is `marker`.
+ErrorBar find_error_bar(const InkMap& map, const Template& marker, cv::Point2d at);
+
+}  // namespace bedscope::digitise
