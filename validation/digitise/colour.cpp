@@ -32,6 +32,19 @@ Share share_of(cv::Vec3f d, cv::Vec3f ink) {
   return {share, length(d - share * ink)};
 }
 
+/// The same for a compressed picture, which keeps the luma sharp and smears the colour: the luma
+/// tells the share, and the colour may have lost up to 0.6 of its strength.
+Share smeared_share_of(cv::Vec3f d, cv::Vec3f ink) {
+  const float y = luma(d), full = luma(ink);
+  if (std::abs(full) < 55) return share_of(d, ink);
+  const float share = std::clamp(y / full, 0.0F, 1.15F);
+  const cv::Vec2f seen(0.564F * (d[0] - y), 0.713F * (d[2] - y));
+  const cv::Vec2f own = share * cv::Vec2f(0.564F * (ink[0] - full), 0.713F * (ink[2] - full));
+  const float strength =
+      own.dot(own) > 0 ? std::clamp(seen.dot(own) / own.dot(own), 0.4F, 1.3F) : 0;
+  return {share, static_cast<float>(cv::norm(seen - strength * own)) + std::abs(y - share * full)};
+}
+
 /// Pixels whose difference from the paper is no weaker than their neighbours': the cores of areas
 /// and the ridges of lines, which show an ink least mixed.
 std::vector<cv::Vec3f> core_colours(const cv::Mat& difference) {
@@ -68,9 +81,10 @@ std::optional<cv::Vec3f> find_again(const std::vector<cv::Vec3f>& cores, cv::Vec
 }
 
 /// A colour that is a mixture of paper and one of `inks`, or nearly one of them.
-bool is_mixture(cv::Vec3f colour, const std::vector<cv::Vec3f>& inks, float tolerance) {
-  return std::any_of(inks.begin(), inks.end(),
-                     [&](cv::Vec3f ink) { return share_of(colour, ink).rest < tolerance; });
+bool is_mixture(cv::Vec3f colour, const std::vector<cv::Vec3f>& inks, bool lossy) {
+  return std::any_of(inks.begin(), inks.end(), [&](cv::Vec3f ink) {
+    return lossy ? smeared_share_of(colour, ink).rest < 40 : share_of(colour, ink).rest < 30;
+  });
 }
 
 /// Inks that nobody asked for: the commonest core colours that are no mixture of known ones.
@@ -90,7 +104,7 @@ void add_others(const std::vector<cv::Vec3f>& cores, bool lossy, std::vector<cv:
   const auto least = std::max<std::size_t>(30, cores.size() / 200);
   for (const auto& [n, colour] : sorted)
     if (static_cast<std::size_t>(n) >= least && inks.size() < 24 && length(colour) > 60 &&
-        !is_mixture(colour, inks, lossy ? 50 : 30))
+        !is_mixture(colour, inks, lossy))
       inks.push_back(colour);
 }
 
@@ -159,7 +173,7 @@ Colours separate(const cv::Mat& page, const cv::Rect& area, bool lossy,
   add_others(cores, colours.lossy, inks);
 
   cv::Mat blurred = difference;
-  if (colours.lossy) cv::GaussianBlur(difference, blurred, {}, 0.9);
+  if (colours.lossy) cv::GaussianBlur(difference, blurred, {}, 1.1);
   colours.owner = cv::Mat(page.size(), CV_32S, cv::Scalar(-1));
   colours.coverage = cv::Mat::zeros(page.size(), CV_32F);
   for (int y = 0; y < page.rows; ++y)
@@ -170,7 +184,8 @@ Colours separate(const cv::Mat& page, const cv::Rect& area, bool lossy,
       int best = -1;
       float least = 1e9F;
       for (int k = 0; k < static_cast<int>(inks.size()); ++k) {
-        const auto [share, rest] = share_of(who, inks[k]);
+        const auto [share, rest] =
+            colours.lossy ? smeared_share_of(who, inks[k]) : share_of(who, inks[k]);
         const float cost = rest + 12 * std::max(0.0F, 1 - share);  // of two in line, the nearer one
         if (share > 0.02F && cost < least) {
           least = cost;

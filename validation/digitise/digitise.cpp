@@ -42,19 +42,24 @@ double shorter_side(const cv::Rect2d& box) {
   return std::max(8.0, std::min(box.width, box.height));
 }
 
-double thickest(const cv::Rect2d& box) { return std::max(4.0, 0.01 * shorter_side(box)); }
+double thickest(const cv::Rect2d& box) { return std::max(5.0, 0.02 * shorter_side(box)); }
 
-/// The scan's angle: as the calibration points say, made finer by the straight lines in the
-/// picture; by the picture alone where the points do not tell.
-double angle_of_scan(const cv::Mat& picture, const Figure& figure) {
-  if (figure.rotation) return *figure.rotation;
+/// The picture made upright: by the angle that the file gives, or that the calibration points show
+/// (the picture itself where they do not tell), made finer by the straight lines in the picture.
+Page upright(const cv::Mat& picture, const Figure& figure) {
+  const auto box = box_of_points(figure, Page(picture, 0));
+  const double stroke =
+      stroke_width(ink_of(picture, paper_of(picture, {0, 0, picture.cols, picture.rows})));
+  const int reduction = reduction_for(std::max(box.width, box.height), stroke);
+  if (figure.rotation) return {picture, *figure.rotation, reduction};
   double angle = angle_of_points(figure);
   if (std::isnan(angle)) angle = angle_of_ink(picture);
-  const Page page(picture, angle);
-  const auto box = box_of_points(figure, page);
-  const auto rest = angle_of(find_rules(ink_of_page(page), 0.5 * shorter_side(box), thickest(box)));
-  if (rest && std::abs(*rest) < 0.5) angle += *rest;
-  return angle;
+  Page page(picture, angle, reduction);
+  const auto inside = box_of_points(figure, page);
+  const auto rest =
+      angle_of(find_rules(ink_of_page(page), 0.5 * shorter_side(inside), thickest(inside)));
+  if (!rest || std::abs(*rest) < 0.01 || std::abs(*rest) > 0.5) return page;
+  return {picture, angle + *rest, reduction};
 }
 
 Calibration calibration_of(const AxisSpec& axis, const Page& page, bool is_x,
@@ -77,7 +82,7 @@ cv::Rect whole_pixels(const cv::Rect2d& box, cv::Size page) {
 class Digitiser {
  public:
   Digitiser(const cv::Mat& picture, bool lossy, const Figure& figure, const std::string& where)
-      : figure_(figure), where_(where), page_(picture, angle_of_scan(picture, figure)) {
+      : figure_(figure), where_(where), page_(upright(picture, figure)) {
     x_ = calibration_of(figure.x, page_, true, where);
     y_ = calibration_of(figure.y, page_, false, where);
     found_.angle = page_.angle();
@@ -183,13 +188,16 @@ class Digitiser {
       with_markers.push_back(i);
     }
     auto markers = find_markers(map, templates);
+    const bool with_line = std::any_of(members.begin(), members.end(), [&](std::size_t i) {
+      return figure_.series[i].kind == Kind::line;
+    });
     for (std::size_t t = 0; t < templates.size(); ++t)
       store_markers(map, templates[t], markers[t], figure_.series[with_markers[t]],
-                    found_.series[with_markers[t]]);
+                    found_.series[with_markers[t]], with_line);
     for (const auto i : members)
       if (figure_.series[i].kind == Kind::line) {
         cover_markers(map, templates, markers);
-        store_line(map, figure_.series[i], found_.series[i]);
+        store_line(map, all_points(markers), figure_.series[i], found_.series[i]);
       }
   }
 
@@ -225,18 +233,18 @@ class Digitiser {
   }
 
   void store_markers(const InkMap& map, const Template& marker, std::vector<Marker>& markers,
-                     const SeriesSpec& series, FoundSeries& found) {
+                     const SeriesSpec& series, FoundSeries& found, bool with_line) {
     if (markers.empty())
       throw InputError(
           "{}: series \"{}\": expected markers of colour {} in the plot area, found none", where_,
           series.name, hex_of(series.colour));
-    complete(markers, marker, colours_.lossy);
+    complete(markers, page_.reduction(), page_.angle() != 0, colours_.lossy);
     found.shape = name_of(marker.shape);
     const cv::Point2d corner = area_.tl();
     for (const auto& one : markers) {
       auto point = to_point(one.at + corner, one.u[0], one.u[1]);
       if (series.error_bars) {
-        const auto bar = find_error_bar(map, marker, one.at);
+        const auto bar = find_error_bar(map, marker, one.at, with_line);
         point.bar_pixel[0] = bar.lower + corner.y;
         point.bar_pixel[1] = bar.upper + corner.y;
         for (const double end : point.bar_pixel)
@@ -249,10 +257,11 @@ class Digitiser {
     }
   }
 
-  void store_line(const InkMap& map, const SeriesSpec& series, FoundSeries& found) {
+  void store_line(const InkMap& map, const std::vector<LinePoint>& through,
+                  const SeriesSpec& series, FoundSeries& found) {
     InkMap wider = map;
     cv::dilate(map.unknown, wider.unknown, cv::Mat::ones(3, 3, CV_8U));
-    auto line = trace_line(wider, series.points);
+    auto line = trace_line(wider, through, series.points);
     if (line.points.size() < 2)
       throw InputError(
           "{}: series \"{}\": expected a line of colour {} in the plot area, found none", where_,
@@ -267,18 +276,25 @@ class Digitiser {
       found.points.push_back(to_point(one.at + cv::Point2d(area_.tl()), one.u, one.u));
   }
 
+  /// A line goes through the markers of its ink.
+  static std::vector<LinePoint> all_points(const std::vector<std::vector<Marker>>& markers) {
+    std::vector<LinePoint> points;
+    for (const auto& series : markers)
+      for (const auto& one : series) points.push_back({one.at, std::max(one.u[0], one.u[1])});
+    return points;
+  }
+
+  /// Under a marker nothing is known of the line.
   static void cover_markers(InkMap& map, const std::vector<Template>& templates,
                             const std::vector<std::vector<Marker>>& markers) {
     for (std::size_t t = 0; t < templates.size(); ++t)
       for (const auto& one : markers[t]) {
-        const auto& box = templates[t].box;
-        const auto middle = one.fit.origin;
-        cv::rectangle(map.unknown,
-                      cv::Rect(cv::Point(cvFloor(middle.x - box.width / 2 - 1.5),
-                                         cvFloor(middle.y - box.height / 2 - 1.5)),
-                               cv::Point(cvCeil(middle.x + box.width / 2 + 1.5),
-                                         cvCeil(middle.y + box.height / 2 + 1.5))),
-                      cv::Scalar(255), cv::FILLED);
+        const cv::Size size = templates[t].inside.size();
+        const cv::Rect wanted(cvRound(one.fit.origin.x - size.width / 2.0),
+                              cvRound(one.fit.origin.y - size.height / 2.0), size.width,
+                              size.height);
+        const cv::Rect there = wanted & cv::Rect(0, 0, map.unknown.cols, map.unknown.rows);
+        if (!there.empty()) map.unknown(there).setTo(255, templates[t].inside(there - wanted.tl()));
       }
   }
 

@@ -23,6 +23,15 @@ struct Looker {
   double on_bar(int y, int x) const {
     return std::max({coverage(y, x - 1), coverage(y, x), coverage(y, x + 1)});
   }
+  /// Middle of the ink of a row near x.
+  double centre(int y, int x) const {
+    double mass = 0, moment = 0;
+    for (int i = x - 3; i <= x + 3; ++i) {
+      mass += coverage(y, i);
+      moment += coverage(y, i) * i;
+    }
+    return mass > 0 ? moment / mass : x;
+  }
   /// Length of the unbroken ink of a row around x.
   int breadth(int y, int x) const {
     int left = x, right = x;
@@ -33,7 +42,8 @@ struct Looker {
 };
 
 /// The end of a stroke that leaves the marker's edge row `start` in direction `step` (+1 down).
-double end_of(const Looker& look, int x, int start, int step, double marker_width) {
+double end_of(const Looker& look, int x, int start, int step, double marker_width,
+              bool cap_needed) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   std::vector<int> breadths;
   int y = start, last = start - step, broken = 0;
@@ -50,7 +60,7 @@ double end_of(const Looker& look, int x, int start, int step, double marker_widt
     breadths.push_back(look.breadth(y, x));
   }
   const int length = std::abs(last - start) + 1;
-  if (breadths.empty() || length < 3) return none;
+  if (breadths.empty()) return none;
   auto sorted = breadths;
   std::sort(sorted.begin(), sorted.end());
   const int thin = sorted[sorted.size() / 4];
@@ -61,7 +71,7 @@ double end_of(const Looker& look, int x, int start, int step, double marker_widt
   int cap = 0;
   while (cap < static_cast<int>(breadths.size()) && wide(breadths[breadths.size() - 1 - cap]))
     ++cap;
-  if (cap > 0 && cap <= 3 * thin + 2) {
+  if (cap > 0 && cap <= 3 * thin + 2 && (cap < length || breadths.back() < marker_width)) {
     double mass = 0, moment = 0;
     for (int i = -1; i <= cap; ++i) {
       const int row = last - step * (cap - 1) + step * i;
@@ -73,7 +83,8 @@ double end_of(const Looker& look, int x, int start, int step, double marker_widt
     }
     if (mass > 0) return moment / mass;
   }
-  // A marker's own shoulder is no bar.
+  // A marker's own shoulder is no bar, nor is a steep line.
+  if (cap_needed || std::abs(look.centre(last, x) - look.centre(start, x)) > 1.2) return none;
   if (length < 0.12 * marker_width + 2) return none;
   const double at_last = std::min(1.0, look.on_bar(last, x)),
                beyond = std::min(1.0, look.on_bar(last + step, x));
@@ -83,14 +94,14 @@ double end_of(const Looker& look, int x, int start, int step, double marker_widt
 
 }  // namespace
 
-ErrorBar find_error_bar(const InkMap& map, const Template& marker, cv::Point2d at) {
+ErrorBar find_error_bar(const InkMap& map, const Template& marker, cv::Point2d at, bool with_line) {
   const Looker look{map};
   const cv::Point2d middle = at - marker.reference;
   const int x = cvFloor(at.x);
   const int above = cvFloor(middle.y - marker.box.height / 2 - 1.5);
   const int below = cvFloor(middle.y + marker.box.height / 2 + 1.5);
-  return {end_of(look, x, below, +1, marker.box.width),
-          end_of(look, x, above, -1, marker.box.width)};
+  return {end_of(look, x, below, +1, marker.box.width, with_line),
+          end_of(look, x, above, -1, marker.box.width, with_line)};
 }
 
 }  // namespace bedscope::digitise

@@ -11,7 +11,8 @@ struct ErrorBar {
          upper = 0;  ///< rows of the ends (lower: the larger row); NaN where none is seen
 };
 
-/// The bar of a marker at `at`, whose template is `marker`.
-ErrorBar find_error_bar(const InkMap& map, const Template& marker, cv::Point2d at);
+/// The bar of a marker at `at`, whose template is `marker`. `with_line`: the ink also draws a line
+/// through the markers, so that only a stroke with a cap is a bar.
+ErrorBar find_error_bar(const InkMap& map, const Template& marker, cv::Point2d at, bool with_line);
 
 }  // namespace bedscope::digitise

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the markers of an ink look like.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <set>
 
 #include "validation/digitise/markers.hpp"
 
@@ -21,20 +23,20 @@ std::vector<Piece> pieces_of(const cv::Mat& mask, const InkMap& map) {
   const int n = cv::connectedComponentsWithStats(mask, labels, stats, centres, 8);
   cv::dilate(map.unknown, near_unknown, cv::Mat::ones(3, 3, CV_8U));
   const int largest = std::max(24, std::min(mask.cols, mask.rows) / 6);
-  std::vector<bool> touched(n);
+  std::vector<int> touched(n);
   std::vector<double> ink(n);
   for (int y = 0; y < mask.rows; ++y)
     for (int x = 0; x < mask.cols; ++x)
       if (const int label = labels.at<int>(y, x); label > 0) {
         ink[label] += map.coverage.at<float>(y, x);
-        if (near_unknown.at<uchar>(y, x) != 0) touched[label] = true;
+        touched[label] += near_unknown.at<uchar>(y, x) != 0;
       }
   std::vector<Piece> pieces;
   for (int i = 1; i < n; ++i) {
     const cv::Rect box(stats.at<int>(i, cv::CC_STAT_LEFT), stats.at<int>(i, cv::CC_STAT_TOP),
                        stats.at<int>(i, cv::CC_STAT_WIDTH), stats.at<int>(i, cv::CC_STAT_HEIGHT));
-    if (touched[i] || std::min(box.width, box.height) < 4 ||
-        std::max(box.width, box.height) > largest ||
+    if (touched[i] > 0.08 * stats.at<int>(i, cv::CC_STAT_AREA) ||
+        std::min(box.width, box.height) < 4 || std::max(box.width, box.height) > largest ||
         std::max(box.width, box.height) > 2.0 * std::min(box.width, box.height))
       continue;
     pieces.push_back({box, stats.at<int>(i, cv::CC_STAT_AREA), ink[i]});
@@ -68,7 +70,7 @@ cv::Mat typical(const InkMap& map, const Template& marker,
   for (const auto guess : guesses) {
     if (windows.size() == 40) break;
     const auto found = fit(marker, map, guess);
-    if (found.score < 0.5 || found.known < 0.95) continue;
+    if (found.score < 0.5 || found.known < 0.95 || found.least_part < 0.5) continue;
     windows.push_back(window(map.coverage, found.origin, marker.ink.size(), 0));
   }
   if (windows.size() < 3) return {};
@@ -167,7 +169,12 @@ std::optional<Template> on_lines(const InkMap& map, const cv::Mat& mask,
     std::vector<Shape> filled;
     for (const auto& shape : shapes)
       if (shape.fill == Fill::filled) filled.push_back(shape);
-    const auto group = best_group(pieces_of(opened, cores), cores.coverage, filled, 0.85);
+    auto pieces = pieces_of(opened, cores);
+    // Where strokes cross or turn they are thicker too, but not by much.
+    std::erase_if(pieces, [&](const Piece& piece) {
+      return std::min(piece.box.width, piece.box.height) < std::max(5.0, 2.6 * stroke);
+    });
+    const auto group = best_group(pieces, cores.coverage, filled, 0.8);
     if (!group || group->pieces.size() < 2) continue;
     auto marker = template_of(*group, cores);
     // Once more with the whole ink: the opening has rounded the corners.
@@ -201,42 +208,119 @@ std::vector<std::pair<double, cv::Point2d>> peaks(const cv::Mat& coverage, const
   return found;
 }
 
-/// Drawn shapes of all sizes, for thin and open markers on lines and bars.
-std::optional<Template> by_search(const InkMap& map, const std::vector<Shape>& shapes) {
-  const double stroke = std::max(1.0, stroke_width(map.coverage));
-  const double largest = std::min(map.coverage.cols, map.coverage.rows) / 8.0;
-  double most = 0;
-  std::optional<Template> best;
+struct Guess {
+  Shape shape;
+  cv::Size2d box;
+  double stroke = 1, worth = 0;
   std::vector<cv::Point2d> places;
+};
+
+/// Shapes and sizes that correlate with the map in several places, the best first. The markers'
+/// strokes may be thinner than a line through them.
+std::vector<Guess> rough_guesses(const InkMap& map, const std::vector<Shape>& shapes,
+                                 double stroke) {
+  const double largest = std::min(map.coverage.cols, map.coverage.rows) / 8.0;
+  std::vector<Guess> guesses;
   for (double size = std::max(5.0, 2.5 * stroke); size < largest; size *= 1.1) {
-    const double scale = std::min(1.0, 13 / size);
+    const double scale = std::min(1.0, 13 / size), box = size * scale;
     cv::Mat small;
     cv::resize(map.coverage, small, {}, scale, scale, cv::INTER_AREA);
-    for (const auto& shape : shapes) {
-      const double box = size * scale;
-      const cv::Size canvas(cvCeil(box) + 2, cvCeil(box) + 2);
-      const double slim = shape.outline == Outline::diamond ? 0.75 : 1;
-      for (const double narrow : slim < 1 ? std::vector{1.0, slim} : std::vector{1.0}) {
-        const auto drawn =
-            draw_shape(shape, {box * narrow, box}, std::max(0.5, stroke * scale), canvas);
-        const auto found = peaks(small, drawn, 0.62, 0.6 * box);
-        double sum = 0;
-        for (const auto& [score, place] : found) sum += (score - 0.55) * (score - 0.55);
-        if (found.size() < 2 || sum <= most) continue;
-        most = sum;
-        const cv::Size full(cvCeil(size) + 2, cvCeil(size) + 2);
-        best = make_template(draw_shape(shape, {size * narrow, size}, stroke, full), shape);
-        places.clear();
-        for (const auto& [score, place] : found) places.emplace_back(place / scale);
-      }
-    }
+    for (const auto& shape : shapes)
+      for (const double narrow : {1.0, 0.75})
+        for (const double thin : {1.0, 0.5}) {
+          if (narrow < 1 && shape.outline != Outline::diamond) continue;
+          if (thin < 1 && (stroke < 2 || shape.fill == Fill::filled)) continue;
+          const cv::Size canvas(cvCeil(box) + 2, cvCeil(box) + 2);
+          const auto drawn =
+              draw_shape(shape, {box * narrow, box}, std::max(0.5, thin * stroke * scale), canvas);
+          auto found = peaks(small, drawn, 0.55, 0.6 * box);
+          if (found.size() < 2) continue;
+          std::sort(found.begin(), found.end(),
+                    [](const auto& a, const auto& b) { return a.first > b.first; });
+          if (found.size() > 40) found.resize(40);
+          Guess guess{shape, {size * narrow, size}, thin * stroke, 0, {}};
+          for (const auto& [score, place] : found) {
+            guess.worth += (score - 0.5) * (score - 0.5);
+            guess.places.emplace_back(place / scale);
+          }
+          guesses.push_back(guess);
+        }
   }
-  if (!best) return std::nullopt;
-  if (cv::Mat median = typical(map, *best, places); !median.empty()) {
-    trim(median, best->inside);
-    best = make_template(without_margin(median, 2), best->shape);
-  }
+  std::sort(guesses.begin(), guesses.end(),
+            [](const auto& a, const auto& b) { return a.worth > b.worth; });
+  return guesses;
+}
+
+/// The best guess of each shape, stroke and range of sizes (small ones fit in many places, so that
+/// the large would never have their turn), 80 at most.
+std::vector<Guess> best_of_each(const std::vector<Guess>& guesses) {
+  std::set<std::array<int, 4>> had;
+  std::vector<Guess> best;
+  for (const auto& guess : guesses)
+    if (best.size() < 80 &&
+        had.insert({static_cast<int>(guess.shape.outline), static_cast<int>(guess.shape.fill),
+                    cvRound(4 * guess.stroke), cvRound(std::log(guess.box.height) / std::log(1.2))})
+            .second)
+      best.push_back(guess);
   return best;
+}
+
+/// The map at a size at which strokes are about two pixels wide.
+InkMap coarse(const InkMap& map, double scale) {
+  InkMap small;
+  cv::resize(map.coverage, small.coverage, {}, scale, scale, cv::INTER_AREA);
+  cv::resize(map.unknown, small.unknown, small.coverage.size(), 0, 0, cv::INTER_AREA);
+  return small;
+}
+
+/// Drawn shapes of all sizes, for thin and open markers on lines and bars: the one that explains
+/// most ink where it lies well. A smaller one of the same kind would lie as well, but explains
+/// less.
+std::optional<Template> by_search(const InkMap& map, const std::vector<Shape>& shapes) {
+  const double full_stroke = std::max(1.0, stroke_width(map.coverage));
+  const double scale = std::min(1.0, 2 / full_stroke), stroke = full_stroke * scale;
+  const auto small = scale < 0.75 ? coarse(map, scale) : map;
+  const double back = static_cast<double>(map.coverage.cols) / small.coverage.cols;
+  const auto guesses = best_of_each(rough_guesses(small, shapes, stroke));
+  double most = 0;
+  const Guess* best = nullptr;
+  for (const auto& guess : guesses) {
+    const cv::Size canvas(cvCeil(guess.box.width) + 2, cvCeil(guess.box.height) + 2);
+    const auto marker =
+        make_template(draw_shape(guess.shape, guess.box, guess.stroke, canvas), guess.shape);
+    const double ink = marker.ink.dot(marker.ink);
+    double worth = 0;
+    int good = 0;
+    for (const auto& place : guess.places) {
+      const auto found = fit(marker, small, place);
+      if (found.score < 0.6 || found.known < 0.8 || found.least_part < 0.5) continue;
+      worth += ink * (found.score - 0.5);
+      ++good;
+    }
+    if (good < 2 || worth <= most) continue;
+    most = worth;
+    best = &guess;
+  }
+  if (best == nullptr) return std::nullopt;
+  const cv::Size2d box = best->box * back;
+  const cv::Size canvas(cvCeil(box.width) + 2, cvCeil(box.height) + 2);
+  auto marker =
+      make_template(draw_shape(best->shape, box, best->stroke * back, canvas), best->shape);
+  std::vector<cv::Point2d> places;
+  for (const auto& place : best->places) places.push_back(place * back);
+  if (cv::Mat median = typical(map, marker, places); !median.empty()) {
+    trim(median, marker.inside);
+    marker = make_template(without_margin(median, 2), best->shape);
+  }
+  return marker;
+}
+
+/// How much ink a template explains, and how well.
+double worth(const InkMap& map, const Template& marker) {
+  double sum = 0;
+  const auto found = find_markers(map, {marker});
+  for (const auto& one : found[0]) sum += marker.ink.dot(marker.ink) * (one.fit.score - 0.5);
+  return sum;
 }
 
 }  // namespace
@@ -274,10 +358,17 @@ std::optional<Template> learn(const InkMap& map, const MarkerQuery& query) {
   const auto pieces = pieces_of(mask, map);
   const auto alone = best_group(pieces, map.coverage, shapes, 0.8);
   if (alone &&
-      (alone->ink > 0.35 * all || (alone->pieces.size() >= 3 && alone->resemblance > 0.88)))
+      (alone->ink > 0.35 * all || (alone->pieces.size() >= 3 && alone->resemblance > 0.88))) {
+    if (getenv("DIG_DEBUG"))
+      fprintf(stderr, "alone %zu %.2f\n", alone->pieces.size(), alone->resemblance);
     return template_of(*alone, map);
-  if (auto marker = on_lines(map, mask, shapes)) return marker;
-  if (auto marker = by_search(map, shapes)) return marker;
+  }
+  const auto filled = on_lines(map, mask, shapes);
+  if (filled && recognise(filled->ink, {filled->shape}).second > 0.94) return filled;
+  const auto drawn = by_search(map, shapes);
+  if (filled && drawn) return worth(map, *filled) > worth(map, *drawn) ? filled : drawn;
+  if (filled) return filled;
+  if (drawn) return drawn;
   if (alone) return template_of(*alone, map);
   if (!query.shape)  // a shape without a name
     if (const auto group = best_group(pieces, map.coverage, shapes, 0.0))

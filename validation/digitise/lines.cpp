@@ -15,6 +15,7 @@ struct Run {
   int column = 0;
   double top = 0, bottom = 0, middle = 0, mass = 0;
   bool cut = false;  ///< an unknown pixel is beside it: its middle is not the line's
+  double u = 0;      ///< of a marker that stands for the line
   // The best way that ends here:
   double worth = 0, slope = 0;
   int before = -1;
@@ -25,8 +26,18 @@ struct Path {
   double mass = 0;
 };
 
-std::vector<Run> runs_of(const InkMap& map, int column) {
+std::vector<Run> runs_of(const InkMap& map, const std::vector<LinePoint>& through, int column) {
   std::vector<Run> runs;
+  for (const auto& marker : through)
+    if (cvFloor(marker.at.x) == column) {
+      Run run;
+      run.column = column;
+      run.middle = marker.at.y;
+      run.top = marker.at.y - 0.5;
+      run.bottom = marker.at.y + 0.5;
+      run.u = marker.u;
+      runs.push_back(run);
+    }
   constexpr float seen = 0.22F;
   const int rows = map.coverage.rows;
   for (int y = 0; y < rows; ++y) {
@@ -69,7 +80,8 @@ double slope_of(const std::vector<Run>& all, int run, int back) {
 
 /// The way from left to right with the most columns of ink, less what its gaps and jumps cost
 /// (Viterbi 1967). `taken` columns are not entered.
-Path best_path(const InkMap& map, const std::vector<bool>& taken, double stroke) {
+Path best_path(const InkMap& map, const std::vector<LinePoint>& through,
+               const std::vector<bool>& taken, double stroke) {
   const int width = map.coverage.cols;
   const int longest_gap = std::max(cvRound(12 * stroke), width / 25);
   std::vector<Run> all;
@@ -78,8 +90,8 @@ Path best_path(const InkMap& map, const std::vector<bool>& taken, double stroke)
   for (int column = 0; column < width; ++column) {
     first_of[column] = static_cast<int>(all.size());
     if (taken[column]) continue;
-    for (auto run : runs_of(map, column)) {
-      const double reward = run.cut ? 0.5 : 1.0;
+    for (auto run : runs_of(map, through, column)) {
+      const double reward = run.u > 0 ? 3.0 : run.cut ? 0.5 : 1.0;
       run.worth = reward;
       for (int back = 1; back <= longest_gap && column - back >= 0; ++back) {
         if (taken[column - back]) break;
@@ -99,7 +111,7 @@ Path best_path(const InkMap& map, const std::vector<bool>& taken, double stroke)
                    0.25 * std::max(0.0, off - 0.15 * back - stroke) + 0.05 * off;
           }
           // A change of the run's length is a branch or a touching neighbour.
-          cost += 0.02 * std::abs(run.mass - other.mass);
+          if (run.u == 0 && other.u == 0) cost += 0.02 * std::abs(run.mass - other.mass);
           if (other.worth - cost + reward > run.worth) {
             run.worth = other.worth - cost + reward;
             run.before = i;
@@ -123,13 +135,13 @@ Path best_path(const InkMap& map, const std::vector<bool>& taken, double stroke)
 }
 
 /// The best path, then those in the columns it left free (the line was hidden for long), by column.
-Path whole_path(const InkMap& map) {
+Path whole_path(const InkMap& map, const std::vector<LinePoint>& through) {
   const int width = map.coverage.cols;
   const double stroke = stroke_width(map.coverage);
   std::vector<bool> taken(width);
   Path whole;
   for (int part = 0; part < 8; ++part) {
-    const auto path = best_path(map, taken, stroke);
+    const auto path = best_path(map, through, taken, stroke);
     if (path.runs.size() < 6) break;
     const double least = part == 0 ? 0 : std::max(15.0, 0.02 * width);
     if (static_cast<double>(path.runs.size()) < least) break;
@@ -147,11 +159,13 @@ Path whole_path(const InkMap& map) {
 std::optional<LinePoint> local_place(const std::vector<Run>& runs, std::size_t centre,
                                      double stroke) {
   const int reach = std::max(2, cvRound(stroke));
+  if (runs[centre].u > 0)
+    return LinePoint{{runs[centre].column + 0.5, runs[centre].middle}, runs[centre].u};
   cv::Matx33d normal = cv::Matx33d::zeros();
   cv::Vec3d right(0, 0, 0);
   std::vector<std::pair<double, double>> used;
   const auto add = [&](const Run& run) {
-    if (run.cut) return;
+    if (run.cut || run.u > 0) return;
     const double t = run.column - runs[centre].column;
     const cv::Vec3d row(1, t, t * t);
     normal += row * row.t();
@@ -203,12 +217,14 @@ TracedLine sample(const Path& path, double stroke, int points) {
 
 }  // namespace
 
-TracedLine trace_line(const InkMap& map, int points) {
+TracedLine trace_line(const InkMap& map, const std::vector<LinePoint>& through, int points) {
   cv::Mat known = map.coverage.clone();
   known.setTo(0, map.unknown);
   const double all = cv::sum(known)[0], stroke = stroke_width(known);
   const InkMap turned{map.coverage.t(), map.unknown.t()};
-  const auto by_column = whole_path(map), by_row = whole_path(turned);
+  auto turned_through = through;
+  for (auto& point : turned_through) std::swap(point.at.x, point.at.y);
+  const auto by_column = whole_path(map, through), by_row = whole_path(turned, turned_through);
   const bool along_x = by_column.mass >= by_row.mass - 0.1 * all;
   auto line = sample(along_x ? by_column : by_row, stroke, points);
   line.along_x = along_x;

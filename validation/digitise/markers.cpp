@@ -46,7 +46,9 @@ struct Candidate {
 
 double worth(const Fit& fit) { return fit.score * std::sqrt(fit.known); }
 
-bool good(const Fit& fit) { return fit.score > accepted && fit.known > least_known; }
+bool good(const Fit& fit) {
+  return fit.score > accepted && fit.known > least_known && fit.least_part > 0.45;
+}
 
 /// What the template explains is not to be explained again.
 void cover(InkMap& map, const Template& marker, cv::Point2d origin) {

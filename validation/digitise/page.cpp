@@ -9,7 +9,12 @@
 
 namespace bedscope::digitise {
 
-Page::Page(const cv::Mat& picture, double angle) {
+Page::Page(const cv::Mat& full, double angle, int reduction) : reduction_(reduction) {
+  cv::Mat picture = full;
+  if (reduction > 1) {
+    const cv::Size size(full.cols / reduction, full.rows / reduction);
+    cv::resize(full(cv::Rect({0, 0}, size * reduction)), picture, size, 0, 0, cv::INTER_AREA);
+  }
   if (std::abs(angle) < 0.02) {
     image_ = picture;
     return;
@@ -32,19 +37,25 @@ Page::Page(const cv::Mat& picture, double angle) {
 }
 
 cv::Point2d Page::to_page(cv::Point2d pixel) const {
-  const auto p = turn_ * cv::Vec3d(pixel.x, pixel.y, 1);
+  const auto p = turn_ * cv::Vec3d(pixel.x / reduction_, pixel.y / reduction_, 1);
   return {p[0], p[1]};
 }
 
 cv::Point2d Page::to_picture(cv::Point2d pixel) const {
   const double x = pixel.x - turn_(0, 2), y = pixel.y - turn_(1, 2);
-  return {turn_(0, 0) * x + turn_(1, 0) * y, turn_(0, 1) * x + turn_(1, 1) * y};
+  return reduction_ *
+         cv::Point2d(turn_(0, 0) * x + turn_(1, 0) * y, turn_(0, 1) * x + turn_(1, 1) * y);
 }
 
 cv::Rect2d Page::to_page(const cv::Rect2d& box) const {
   const auto middle = to_page({box.x + box.width / 2, box.y + box.height / 2});
   // A box drawn by hand round something upright: its size is kept.
-  return {middle.x - box.width / 2, middle.y - box.height / 2, box.width, box.height};
+  const cv::Size2d size(box.width / reduction_, box.height / reduction_);
+  return {middle.x - size.width / 2, middle.y - size.height / 2, size.width, size.height};
+}
+
+int reduction_for(double length, double stroke) {
+  return std::max(1, std::min(cvFloor(length / 900), cvFloor(stroke / 1.8)));
 }
 
 cv::Vec3f paper_of(const cv::Mat& image, const cv::Rect& part) {

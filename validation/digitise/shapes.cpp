@@ -176,9 +176,10 @@ bool is_strokes(Outline outline) {
          outline == Outline::cross;
 }
 
-cv::Mat draw_shape(const Shape& shape, cv::Size2d box, double stroke, cv::Size size) {
+cv::Mat draw_shape(const Shape& shape, cv::Size2d box, double stroke, cv::Size size,
+                   cv::Point2d off) {
   cv::Mat canvas = cv::Mat::zeros(size.height * fine, size.width * fine, CV_8U);
-  const cv::Point2d centre(size.width / 2.0, size.height / 2.0);
+  const cv::Point2d centre(size.width / 2.0 + off.x, size.height / 2.0 + off.y);
   const double rx = box.width / 2, ry = box.height / 2;
   if (is_strokes(shape.outline)) {
     const bool upright = shape.outline != Outline::x, slanted = shape.outline != Outline::plus;
@@ -233,8 +234,8 @@ Reference reference_of(Outline outline, cv::Size2d box) {
   // the middle of what is seen lies a little towards the tip (0.31 strokes of a seventh). Flatter:
   // the centre of mass, a sixth of the height towards the base.
   Reference reference;
-  const double towards_base = slenderness > 0.93 ? 0.035 : 1.0 / 6;
-  reference.uncertain = slenderness > 0.93 ? 0.02 : 0.01;
+  const double towards_base = slenderness > 0.93 ? 0.038 : 1.0 / 6;
+  reference.uncertain = slenderness > 0.93 ? 0.012 : 0.01;
   switch (outline) {
     case Outline::triangle:
       reference.at = {0, towards_base};

@@ -44,9 +44,10 @@ bool is_triangle(Outline outline);
 bool is_strokes(Outline outline);  ///< plus, x, asterisk: no inside
 
 /// The outline (no cross) scaled to a width and height in pixels, filled or as a stroke whose outer
-/// edge touches the box, drawn with anti-aliasing in the middle of an image of `size` pixels.
+/// edge touches the box, drawn with anti-aliasing `off` the middle of an image of `size` pixels.
 /// Returns coverage 0 to 1, CV_32F.
-cv::Mat draw_shape(const Shape& shape, cv::Size2d box, double stroke, cv::Size size);
+cv::Mat draw_shape(const Shape& shape, cv::Size2d box, double stroke, cv::Size size,
+                   cv::Point2d off = {0, 0});
 
 /// Where the data point is, from the middle of the box of a marker of this outline, as a fraction
 /// of the box's width and height (y down). Plotting programs differ for triangles: those as wide as

@@ -2,7 +2,9 @@
 #include "validation/digitise/template.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 #include <opencv2/imgproc.hpp>
 
 namespace bedscope::digitise {
@@ -76,34 +78,45 @@ cv::Point2d shift_between(const cv::Mat& ink, const cv::Mat& other) {
   return shift;
 }
 
-/// A triangle's box from its centre of mass (a third of the height from the base) and its base,
-/// both known below a pixel, as its tip is not. `ink` stands on its base.
+/// A triangle's box: of the drawn triangle that differs least from the silhouette of `ink`, which
+/// stands on its base. Absolute differences, so that bars and lines that stick out do not count
+/// much.
 cv::Rect2d triangle_box(const cv::Mat& ink) {
   cv::Mat filled = ink.clone(), core;
   cv::erode(silhouette(ink), core, cv::Mat::ones(3, 3, CV_8U));
   filled.setTo(1, core);
-  const auto moments = cv::moments(filled);
-  if (!(moments.m00 > 0)) return box_of(ink);
-  const double middle_y = moments.m01 / moments.m00 + 0.5,
-               middle_x = moments.m10 / moments.m00 + 0.5;
-  // The base: where the column sums of the middle half end.
-  const auto box = box_of(filled);
-  double bottom = 0;
-  int n = 0;
-  for (int x = cvRound(box.x + 0.3 * box.width); x < cvRound(box.x + 0.7 * box.width); ++x) {
-    int y = std::clamp(cvRound(middle_y), 0, ink.rows - 1);
-    double end = y;
-    for (; y < ink.rows && filled.at<float>(y, x) > 0.02F; ++y)
-      end += std::min(1.0F, filled.at<float>(y, x));
-    bottom += end;
-    ++n;
-  }
-  if (n == 0) return box;
-  bottom /= n;
-  const double height = 3 * (bottom - middle_y);
-  // The area then gives the width.
-  const double width = 2 * moments.m00 / std::max(1.0, height);
-  return {middle_x - width / 2, bottom - height, width, height};
+  const auto start = box_of(filled);
+  std::array<double, 4> best{start.x + start.width / 2 - ink.cols / 2.0,
+                             start.y + start.height / 2 - ink.rows / 2.0, start.width,
+                             start.height};
+  const auto difference = [&](const std::array<double, 4>& p) {
+    const auto drawn =
+        draw_shape({Outline::triangle, Fill::filled}, {p[2], p[3]}, 1, ink.size(), {p[0], p[1]});
+    return cv::norm(filled, drawn, cv::NORM_L1);
+  };
+  double least = difference(best);
+  for (double step = 0.15 * start.width; step > 0.04; step /= 2)
+    for (bool better = true; better;) {
+      better = false;
+      for (std::size_t i = 0; i < 4; ++i)
+        for (const double way : {-step, step}) {
+          auto trial = best;
+          trial[i] += way;
+          // A side moves alone too: the box grows on one side only.
+          for (const double also : {0.0, -0.5, 0.5}) {
+            auto shifted_trial = trial;
+            if (i >= 2) shifted_trial[i - 2] += also * way;
+            if (trial[2] < 2 || trial[3] < 2) continue;
+            if (const double now = difference(shifted_trial); now < least - 1e-9) {
+              least = now;
+              best = shifted_trial;
+              better = true;
+            }
+          }
+        }
+    }
+  return {best[0] + ink.cols / 2.0 - best[2] / 2, best[1] + ink.rows / 2.0 - best[3] / 2, best[2],
+          best[3]};
 }
 
 /// The image turned so that a triangle of this outline stands on its base, and back.
@@ -121,10 +134,12 @@ int quarter_turns(Outline outline) {
 }
 
 cv::Mat turned(const cv::Mat& image, int quarters) {
-  cv::Mat result = image;
-  if (quarters == 1) cv::rotate(image, result, cv::ROTATE_90_CLOCKWISE);
-  if (quarters == 2) cv::rotate(image, result, cv::ROTATE_180);
-  if (quarters == 3) cv::rotate(image, result, cv::ROTATE_90_COUNTERCLOCKWISE);
+  if (quarters == 0) return image;
+  cv::Mat result;
+  cv::rotate(image, result,
+             quarters == 1   ? cv::ROTATE_90_CLOCKWISE
+             : quarters == 2 ? cv::ROTATE_180
+                             : cv::ROTATE_90_COUNTERCLOCKWISE);
   return result;
 }
 
@@ -291,6 +306,9 @@ Fit fit(const Template& marker, const InkMap& map, cv::Point2d guess) {
   }
   model = laid(marker, origin, middle);
   double explained = 0, total = 0, all = 0;
+  std::array<double, 8> there_of{}, ink_of{};
+  const cv::Point2d centre = origin - cv::Point2d(wanted.tl());
+  const double core = 0.2 * std::min(marker.box.width, marker.box.height);
   for (int y = 0; y < size.height; ++y)
     for (int x = 0; x < size.width; ++x) {
       const double m = std::clamp(model.at<float>(y, x), 0.0F, 1.0F);
@@ -303,7 +321,18 @@ Fit fit(const Template& marker, const InkMap& map, cv::Point2d guess) {
                                                                  : 0.15) *
                                rest * rest;
       total += m * m;
+      const cv::Point2d arm(x + 0.5 - centre.x, y + 0.5 - centre.y);
+      if (cv::norm(arm) < core) continue;
+      const auto part =
+          static_cast<std::size_t>(cvRound(std::atan2(arm.y, arm.x) * 4 / std::numbers::pi) + 8) %
+          8;
+      there_of[part] += m * std::min<double>(m, seen.at<float>(y, x));
+      ink_of[part] += m * m;
     }
+  found.least_part = 1;
+  for (std::size_t part = 0; part < 8; ++part)
+    if (ink_of[part] > 0.03 * all)
+      found.least_part = std::min(found.least_part, there_of[part] / ink_of[part]);
   const double det = xx * yy - xy * xy, variance = squares / std::max(1.0, weights - 2);
   found.origin = origin;
   found.u[0] = std::sqrt(variance * yy / det);

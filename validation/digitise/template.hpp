@@ -26,10 +26,11 @@ struct Template {
 
 /// Where a template lies best.
 struct Fit {
-  cv::Point2d origin;    ///< of the template, on the page
-  double u[2] = {0, 0};  ///< standard uncertainties from what the fit leaves
-  double score = -1;     ///< 1 where all is explained, 0 where it is no better than paper
-  double known = 0;      ///< share of the template's ink on known pixels
+  cv::Point2d origin;     ///< of the template, on the page
+  double u[2] = {0, 0};   ///< standard uncertainties from what the fit leaves
+  double score = -1;      ///< 1 where all is explained, 0 where it is no better than paper
+  double known = 0;       ///< share of the template's ink on known pixels
+  double least_part = 0;  ///< how much of the ink of its worst eighth (by direction) is there
 };
 
 /// The outline and fill that resemble `ink` best, of `among`, with their correlation.

@@ -8,32 +8,39 @@
 namespace bedscope::digitise {
 namespace {
 
-/// 1 where all fractions of a pixel are alike, about 1/sqrt(n) where they are random (the mean
-/// resultant length of directional statistics; Mardia and Jupp, 2000).
-double alike(const std::vector<Marker>& markers, int axis) {
+/// The mean of the fractions of a pixel as a vector: of length 1 where all are alike, about
+/// 1/sqrt(n) where they are random (the mean resultant of directional statistics; Mardia and Jupp,
+/// 2000).
+std::complex<double> mean_fraction(const std::vector<Marker>& markers, int axis) {
   std::complex<double> sum;
   for (const auto& marker : markers) {
     const double at = axis == 0 ? marker.at.x : marker.at.y;
     sum += std::polar(1.0, 2 * std::numbers::pi * at);
   }
-  return std::abs(sum) / static_cast<double>(markers.size());
+  return sum / static_cast<double>(markers.size());
 }
 
 }  // namespace
 
-void complete(std::vector<Marker>& markers, const Template&, bool lossy) {
+void complete(std::vector<Marker>& markers, int reduction, bool turned, bool lossy) {
   if (markers.empty()) return;
   const double chance = 1 / std::sqrt(static_cast<double>(markers.size()));
   for (int axis = 0; axis < 2; ++axis) {
-    // On whole pixels: off by up to half a pixel, so that two standard uncertainties of a quarter
-    // hold almost all. Too few markers to tell: in between.
-    const double whole = 0.25, exact = 0.08;
-    const double likeness = alike(markers, axis);
-    const double grid = markers.size() < 4                     ? 0.2
-                        : likeness > std::max(0.5, 2 * chance) ? whole
-                                                               : exact;
-    for (auto& marker : markers)
+    const auto mean = mean_fraction(markers, axis);
+    double shift = 0, grid = 0.08;
+    if (reduction > 1 || markers.size() < 4) {  // nothing to tell from
+      shift = 0.25 / reduction;
+      grid = 0.3 / reduction;
+    } else if (std::abs(mean) > std::max(0.45, 2 * chance)) {
+      // A quarter of a pixel, as twice that holds almost all of an error of up to half a pixel.
+      const bool on_edges = !turned && mean.real() > 0;
+      shift = on_edges ? 0 : 0.25;
+      grid = on_edges ? 0.25 : 0.33;
+    }
+    for (auto& marker : markers) {
+      (axis == 0 ? marker.at.x : marker.at.y) -= shift;
       marker.u[axis] = std::hypot(1.3 * marker.u[axis], grid, lossy ? 0.05 : 0.0);
+    }
   }
 }
 

@@ -123,6 +123,8 @@ def design(seed, family):
             s["dash"] = rng.choice(["solid", "solid", "dashed", "dotted", "dashdot"])
         if kind != "line":
             s["points"] = spread_points(rng, rng.choice([8, 15, 25]), f, apart, taken)
+            if len(s["points"]) < 5:  # no room left
+                continue
             taken += s["points"]
             if kind == "both":
                 s["filled"] = s["filled"] or s["shape"] not in "x+"
