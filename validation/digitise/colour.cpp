@@ -63,10 +63,11 @@ std::vector<cv::Vec3f> core_colours(const cv::Mat& difference) {
   return cores;
 }
 
-/// The colour of the picture that is meant by `asked`: the densest place among the core colours
-/// near it. Nothing where fewer than `least` are near.
+/// The colour of the picture that is meant by `asked`: the mean of the core colours near it;
+/// `asked` itself where a compressed picture only shows it thinned. Nothing where fewer than
+/// `least` are near.
 std::optional<cv::Vec3f> find_again(const std::vector<cv::Vec3f>& cores, cv::Vec3f asked,
-                                    std::size_t least) {
+                                    bool lossy, std::size_t least) {
   for (const float tolerance : {18.0F, 35.0F, same_ink, 1.5F * same_ink}) {
     cv::Vec3d sum;
     std::size_t n = 0;
@@ -77,6 +78,11 @@ std::optional<cv::Vec3f> find_again(const std::vector<cv::Vec3f>& cores, cv::Vec
       }
     if (n >= least) return cv::Vec3f(sum / static_cast<double>(n));
   }
+  const auto thinned = std::count_if(cores.begin(), cores.end(), [&](cv::Vec3f core) {
+    const auto [share, rest] = smeared_share_of(core, asked);
+    return share > 0.25F && rest < 20;
+  });
+  if (lossy && static_cast<std::size_t>(thinned) >= least) return asked;
   return std::nullopt;
 }
 
@@ -163,7 +169,7 @@ Colours separate(const cv::Mat& page, const cv::Rect& area, bool lossy,
   const auto cores = core_colours(difference(area));
   std::vector<cv::Vec3f> inks;
   for (std::size_t i = 0; i < asked.size(); ++i) {
-    const auto found = find_again(cores, asked[i] - colours.paper, 12);
+    const auto found = find_again(cores, asked[i] - colours.paper, colours.lossy, 12);
     if (!found || length(*found) < 25)
       throw InputError(
           "{}: series \"{}\": expected pixels of colour {} in the plot area, found none", where,

@@ -34,8 +34,13 @@ cv::Rect2d box_of_points(const Figure& figure, const Page& page) {
   return {low, high};
 }
 
-cv::Mat ink_of_page(const Page& page) {
-  return ink_of(page.image(), paper_of(page.image(), {0, 0, page.image().cols, page.image().rows}));
+/// What is neither the page's paper nor the plot's, which may be shaded.
+cv::Mat ink_of_page(const Page& page, const cv::Rect2d& plot) {
+  const auto& image = page.image();
+  const cv::Rect whole({0, 0}, image.size());
+  cv::Rect inside = cv::Rect(plot) & whole;
+  if (inside.empty()) inside = whole;
+  return cv::min(ink_of(image, paper_of(image, whole)), ink_of(image, paper_of(image, inside)));
 }
 
 double shorter_side(const cv::Rect2d& box) {
@@ -57,7 +62,7 @@ Page upright(const cv::Mat& picture, const Figure& figure) {
   Page page(picture, angle, reduction);
   const auto inside = box_of_points(figure, page);
   const auto rest =
-      angle_of(find_rules(ink_of_page(page), 0.5 * shorter_side(inside), thickest(inside)));
+      angle_of(find_rules(ink_of_page(page, inside), 0.5 * shorter_side(inside), thickest(inside)));
   if (!rest || std::abs(*rest) < 0.01 || std::abs(*rest) > 0.5) return page;
   return {picture, angle + *rest, reduction};
 }
@@ -108,8 +113,8 @@ class Digitiser {
  private:
   void find_area() {
     const auto inside = box_of_points(figure_, page_);
-    ink_ = ink_of_page(page_);
-    const auto rules = find_rules(ink_, 0.4 * shorter_side(inside), thickest(inside));
+    const auto rules =
+        find_rules(ink_of_page(page_, inside), 0.4 * shorter_side(inside), thickest(inside));
     const auto size = page_.image().size();
     found_.plot_area =
         figure_.plot_area ? page_.to_page(*figure_.plot_area) : plot_area(rules, inside, size);
@@ -162,6 +167,8 @@ class Digitiser {
   InkMap map_of(int ink) const {
     InkMap map{coverage_of(colours_, ink)(area_).clone(),
                hidden_from(colours_, ink)(area_).clone()};
+    // Markers with an edge of another ink: what surrounds them all is not what hides them.
+    if (is_edged(map)) map.unknown.setTo(0);
     for (const auto& box : found_.left_out) {
       const cv::Rect there = box & area_;
       if (there.empty()) continue;
@@ -170,6 +177,16 @@ class Digitiser {
     }
     clear_rules(map);
     return map;
+  }
+
+  /// Whether most of the ink's outline touches another ink.
+  static bool is_edged(const InkMap& map) {
+    const cv::Mat ink = map.coverage > 0.5F;
+    cv::Mat core, near, rim;
+    cv::erode(ink, core, cv::Mat::ones(3, 3, CV_8U));
+    cv::dilate(map.unknown, near, cv::Mat::ones(3, 3, CV_8U));
+    cv::subtract(ink, core, rim);
+    return cv::countNonZero(rim & near) > 0.6 * cv::countNonZero(rim);
   }
 
   void digitise_ink(int ink, const std::vector<std::size_t>& members) {
@@ -302,7 +319,6 @@ class Digitiser {
   const std::string& where_;
   Page page_;
   Calibration x_, y_;
-  cv::Mat ink_;
   cv::Rect area_;
   Colours colours_;
   std::map<int, std::vector<std::size_t>> members_;  ///< the series of an ink

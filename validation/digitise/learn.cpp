@@ -227,7 +227,7 @@ std::vector<Guess> rough_guesses(const InkMap& map, const std::vector<Shape>& sh
     cv::resize(map.coverage, small, {}, scale, scale, cv::INTER_AREA);
     for (const auto& shape : shapes)
       for (const double narrow : {1.0, 0.75})
-        for (const double thin : {1.0, 0.5}) {
+        for (const double thin : {1.0, 0.6, 0.35}) {
           if (narrow < 1 && shape.outline != Outline::diamond) continue;
           if (thin < 1 && (stroke < 2 || shape.fill == Fill::filled)) continue;
           const cv::Size canvas(cvCeil(box) + 2, cvCeil(box) + 2);
@@ -265,7 +265,7 @@ std::vector<Guess> best_of_each(const std::vector<Guess>& guesses) {
   return best;
 }
 
-/// The map at a size at which strokes are about two pixels wide.
+/// The map at a size at which strokes are about three pixels wide.
 InkMap coarse(const InkMap& map, double scale) {
   InkMap small;
   cv::resize(map.coverage, small.coverage, {}, scale, scale, cv::INTER_AREA);
@@ -278,7 +278,7 @@ InkMap coarse(const InkMap& map, double scale) {
 /// less.
 std::optional<Template> by_search(const InkMap& map, const std::vector<Shape>& shapes) {
   const double full_stroke = std::max(1.0, stroke_width(map.coverage));
-  const double scale = std::min(1.0, 2 / full_stroke), stroke = full_stroke * scale;
+  const double scale = std::min(1.0, 3 / full_stroke), stroke = full_stroke * scale;
   const auto small = scale < 0.75 ? coarse(map, scale) : map;
   const double back = static_cast<double>(map.coverage.cols) / small.coverage.cols;
   const auto guesses = best_of_each(rough_guesses(small, shapes, stroke));
@@ -358,11 +358,8 @@ std::optional<Template> learn(const InkMap& map, const MarkerQuery& query) {
   const auto pieces = pieces_of(mask, map);
   const auto alone = best_group(pieces, map.coverage, shapes, 0.8);
   if (alone &&
-      (alone->ink > 0.35 * all || (alone->pieces.size() >= 3 && alone->resemblance > 0.88))) {
-    if (getenv("DIG_DEBUG"))
-      fprintf(stderr, "alone %zu %.2f\n", alone->pieces.size(), alone->resemblance);
+      (alone->ink > 0.35 * all || (alone->pieces.size() >= 3 && alone->resemblance > 0.88)))
     return template_of(*alone, map);
-  }
   const auto filled = on_lines(map, mask, shapes);
   if (filled && recognise(filled->ink, {filled->shape}).second > 0.94) return filled;
   const auto drawn = by_search(map, shapes);

@@ -75,7 +75,7 @@ std::optional<cv::Rect> sample_beside(const cv::Mat& mask, const cv::Rect& text,
   if (strip.width < height || strip.height < height) return std::nullopt;
   cv::Mat labels, stats, centres;
   const int n = cv::connectedComponentsWithStats(mask(strip), labels, stats, centres, 8);
-  cv::Rect sample;
+  std::vector<cv::Rect> parts;
   for (int i = 1; i < n; ++i) {
     const cv::Rect box(stats.at<int>(i, cv::CC_STAT_LEFT), stats.at<int>(i, cv::CC_STAT_TOP),
                        stats.at<int>(i, cv::CC_STAT_WIDTH), stats.at<int>(i, cv::CC_STAT_HEIGHT));
@@ -83,8 +83,16 @@ std::optional<cv::Rect> sample_beside(const cv::Mat& mask, const cv::Rect& text,
     const bool inside =
         box.y > 0 && box.br().y < strip.height && (left ? box.x > 0 : box.br().x < strip.width);
     const double off = box.y + box.height / 2.0 + strip.y - text.y - text.height / 2.0;
-    if (inside && std::abs(off) < 0.4 * height) sample |= box;
+    if (inside && std::abs(off) < 0.4 * height) parts.push_back(box);
   }
+  // The nearest part, and what is close to it: more samples, dashes.
+  std::sort(parts.begin(), parts.end(), [left](const cv::Rect& a, const cv::Rect& b) {
+    return left ? a.br().x > b.br().x : a.x < b.x;
+  });
+  cv::Rect sample;
+  for (const auto& part : parts)
+    if (sample.empty() || std::max(part.x - sample.br().x, sample.x - part.br().x) < 0.8 * height)
+      sample |= part;
   if (sample.empty()) return std::nullopt;
   const int gap = left ? strip.width - sample.br().x : sample.x;
   if (gap > 4.2 * height) return std::nullopt;

@@ -305,7 +305,9 @@ Fit fit(const Template& marker, const InkMap& map, cv::Point2d guess) {
     if (cv::norm(change) < 2e-3) break;
   }
   model = laid(marker, origin, middle);
-  double explained = 0, total = 0, all = 0;
+  double explained = 0, total = 0, all = 0, around = 0, n_around = 0;
+  const bool strokes = is_strokes(marker.shape.outline);
+  const double inner = strokes ? 0.25 : 0.5, outer = strokes ? 0.1 : 0.15;
   std::array<double, 8> there_of{}, ink_of{};
   const cv::Point2d centre = origin - cv::Point2d(wanted.tl());
   const double core = 0.2 * std::min(marker.box.width, marker.box.height);
@@ -315,12 +317,14 @@ Fit fit(const Template& marker, const InkMap& map, cv::Point2d guess) {
       all += m * m;
       if (unknown.at<uchar>(y, x) != 0) continue;
       const double rest = seen.at<float>(y, x) - m;
-      // Missing ink counts in full; extra ink may be a line or a bar and counts half.
-      explained += m * m - (rest < 0                             ? 1.0
-                            : marker.inside.at<uchar>(y, x) != 0 ? 0.5
-                                                                 : 0.15) *
-                               rest * rest;
+      // Missing ink counts in full; extra ink may be a line or a bar and counts less.
+      const double weight = rest < 0 ? 1.0 : marker.inside.at<uchar>(y, x) != 0 ? inner : outer;
+      explained += m * m - weight * rest * rest;
       total += m * m;
+      if (m < 0.1) {
+        around += seen.at<float>(y, x);
+        ++n_around;
+      }
       const cv::Point2d arm(x + 0.5 - centre.x, y + 0.5 - centre.y);
       if (cv::norm(arm) < core) continue;
       const auto part =
@@ -329,6 +333,8 @@ Fit fit(const Template& marker, const InkMap& map, cv::Point2d guess) {
       there_of[part] += m * std::min<double>(m, seen.at<float>(y, x));
       ink_of[part] += m * m;
     }
+  // Strokes would fit anywhere within a patch of ink.
+  if (strokes && around > 0.6 * n_around) explained = 0;
   found.least_part = 1;
   for (std::size_t part = 0; part < 8; ++part)
     if (ink_of[part] > 0.03 * all)

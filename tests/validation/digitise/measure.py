@@ -69,7 +69,9 @@ def compare(truth, csv_path):
             i, j = linear_sum_assignment(np.minimum(far, 1))
             near = far[i, j] < 0.5 * max(series["size"])
             i, j = i[near], j[near]
-            result.update(missed=len(real) - len(i), invented=len(at) - len(j), wanted=len(real),
+            under = [any(b[0] < q[0] < b[2] and b[1] < q[1] < b[3] for b in series.get("hidden", [])) for q in real]
+            missed = [k for k in range(len(real)) if k not in i and not under[k]]  # a legend lies over the others
+            result.update(missed=len(missed), invented=len(at) - len(j), wanted=len(real),
                           errors=at[j] - real[i], u=u[j])
             if "errors" in series and len(i):
                 e = np.array(series["errors"])[i]

@@ -190,11 +190,15 @@ def draw_matplotlib(d, path):
         if d["legend"]:
             ax.legend(frameon=rng.random() < 0.6, loc="best" if not held else rng.choice(["best", "upper center"]))
         if held and rng.random() < 0.25:
+            # An inset's tick labels hide data too.
             inset = ax.inset_axes([0.62, 0.6, 0.33, 0.33])
             t = np.linspace(0, 1, 100)
             inset.plot(t, np.sin(5 * t), color=d["series"][0]["colour"])
             d["inset"] = [0.62, 0.6, 0.33, 0.33]
         fig.tight_layout()
+        fig.canvas.draw()
+        d["over"] = [over.get_window_extent().transformed(ax.transAxes.inverted()).extents
+                     for over in [ax.get_legend()] * d["legend"] + ([inset] if "inset" in d else [])]
         fig.savefig(path, dpi=d["dpi"])
         height = fig.bbox.height
         pixel = lambda fx, fy: [float(q) if i == 0 else float(height - q) for i, q in
@@ -316,6 +320,9 @@ def make(seed, family, folder):
                 toml.append(f'shape = "{SHAPES[s["shape"]]}"')
             entry = {"name": label, "kind": kind, "drawn": s["kind"], "shape": SHAPES[s["shape"]],
                      "filled": s["filled"], "dash": s["dash"]}
+            pad = 1.2 * s["size"] / 72 * d["dpi"] / min(truth["span_px"])
+            hidden = [[b[0] - pad, b[1] - pad, b[2] + pad, b[3] + pad] for b in d.get("over", [])]
+            entry["hidden"] = [[float(v) for v in b] for b in hidden]
             if kind == "markers":
                 entry["points"] = [[float(v) for v in q] for q in s["points"]]  # fractions of the axes
                 entry["size"] = [s["size"] / 72 * d["dpi"] / truth["span_px"][0], s["size"] / 72 * d["dpi"] / truth["span_px"][1]]
