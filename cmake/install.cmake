@@ -16,4 +16,5 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/bedscopeConfigVersion.cma
 install(FILES ${PROJECT_BINARY_DIR}/bedscopeConfig.cmake
               ${PROJECT_BINARY_DIR}/bedscopeConfigVersion.cmake
               ${CMAKE_CURRENT_LIST_DIR}/dependencies.cmake
+              ${CMAKE_CURRENT_LIST_DIR}/FindOpenCVImgcodecs.cmake
               ${CMAKE_CURRENT_LIST_DIR}/FindOpenCVImgproc.cmake DESTINATION ${destination})

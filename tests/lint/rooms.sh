@@ -11,6 +11,7 @@ rooms='physics:
 readers:
 analysis: readers/ physics/
 validation: readers/error.hpp analysis/ physics/
+validation/digitise: readers/error.hpp
 report: readers/error.hpp analysis/ validation/
 cases: readers/error.hpp physics/'
 

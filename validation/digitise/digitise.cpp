@@ -145,7 +145,7 @@ class Digitiser {
   void find_left_out() {
     for (const auto& box : figure_.exclude)
       found_.left_out.push_back(whole_pixels(page_.to_page(box), page_.image().size()));
-    const cv::Mat ink = ink_of(page_.image(), colours_.paper);
+    const cv::Mat ink = ink_of_page(page_, area_);
     const auto rules = find_rules(ink, std::max(12.0, 0.03 * area_.height), thickest(area_));
     auto boxes = find_boxes(rules, area_);
     cv::Mat text = cv::Mat::zeros(ink.size(), CV_32F);

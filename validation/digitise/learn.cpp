@@ -221,13 +221,13 @@ std::vector<Guess> rough_guesses(const InkMap& map, const std::vector<Shape>& sh
                                  double stroke) {
   const double largest = std::min(map.coverage.cols, map.coverage.rows) / 8.0;
   std::vector<Guess> guesses;
-  for (double size = std::max(5.0, 2.5 * stroke); size < largest; size *= 1.1) {
-    const double scale = std::min(1.0, 13 / size), box = size * scale;
+  for (double size = std::max(5.0, 3 * stroke); size < largest; size *= 1.15) {
+    const double scale = std::min(1.0, 11 / size), box = size * scale;
     cv::Mat small;
     cv::resize(map.coverage, small, {}, scale, scale, cv::INTER_AREA);
     for (const auto& shape : shapes)
       for (const double narrow : {1.0, 0.75})
-        for (const double thin : {1.0, 0.6, 0.35}) {
+        for (const double thin : {1.0, 0.5}) {
           if (narrow < 1 && shape.outline != Outline::diamond) continue;
           if (thin < 1 && (stroke < 2 || shape.fill == Fill::filled)) continue;
           const cv::Size canvas(cvCeil(box) + 2, cvCeil(box) + 2);
@@ -293,7 +293,7 @@ std::optional<Template> by_search(const InkMap& map, const std::vector<Shape>& s
     int good = 0;
     for (const auto& place : guess.places) {
       const auto found = fit(marker, small, place);
-      if (found.score < 0.6 || found.known < 0.8 || found.least_part < 0.5) continue;
+      if (found.score < 0.6 || found.known < 0.8 || found.least_part < 0.6) continue;
       worth += ink * (found.score - 0.5);
       ++good;
     }
@@ -313,6 +313,17 @@ std::optional<Template> by_search(const InkMap& map, const std::vector<Shape>& s
     marker = make_template(without_margin(median, 2), best->shape);
   }
   return marker;
+}
+
+/// What a search tries where the user names no shape.
+std::vector<Shape> common_shapes() {
+  std::vector<Shape> shapes{{Outline::plus, Fill::any}, {Outline::x, Fill::any}};
+  for (const auto outline : {Outline::circle, Outline::square, Outline::diamond, Outline::triangle,
+                             Outline::triangle_down}) {
+    shapes.push_back({outline, Fill::filled});
+    shapes.push_back({outline, Fill::open});
+  }
+  return shapes;
 }
 
 /// How much ink a template explains, and how well.
@@ -353,23 +364,25 @@ std::optional<Template> learn(const InkMap& map, const MarkerQuery& query) {
     return marker;
   }
   cv::Mat mask;
-  cv::compare(map.coverage, 0.35, mask, cv::CMP_GT);
+  cv::compare(map.coverage, 0.28, mask, cv::CMP_GT);
   const double all = cv::sum(map.coverage)[0];
   const auto pieces = pieces_of(mask, map);
   const auto alone = best_group(pieces, map.coverage, shapes, 0.8);
-  if (alone &&
-      (alone->ink > 0.35 * all || (alone->pieces.size() >= 3 && alone->resemblance > 0.88)))
+  if (alone && (alone->ink > 0.35 * all ||
+                (alone->pieces.size() >= 3 && (query.shape || alone->resemblance > 0.88))))
     return template_of(*alone, map);
   const auto filled = on_lines(map, mask, shapes);
   if (filled && recognise(filled->ink, {filled->shape}).second > 0.94) return filled;
-  const auto drawn = by_search(map, shapes);
+  const auto drawn = by_search(map, query.shape ? shapes : common_shapes());
   if (filled && drawn) return worth(map, *filled) > worth(map, *drawn) ? filled : drawn;
   if (filled) return filled;
   if (drawn) return drawn;
   if (alone) return template_of(*alone, map);
-  if (!query.shape)  // a shape without a name
-    if (const auto group = best_group(pieces, map.coverage, shapes, 0.0))
-      return template_of(*group, map);
+  // A shape without a name, or one that does not look like its name.
+  if (auto group = best_group(pieces, map.coverage, candidates(std::nullopt), 0.0)) {
+    if (query.shape) group->shape = shapes.front();
+    return template_of(*group, map);
+  }
   return std::nullopt;
 }
 

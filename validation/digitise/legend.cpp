@@ -42,7 +42,7 @@ std::vector<Word> words_of(const std::vector<cv::Rect>& glyphs) {
     for (auto& word : words) {
       const int gap = glyph.x - word.box.br().x;
       const int height = std::max(glyph.height, word.glyphs.back().height);
-      if (same_row(glyph, word.box) && gap <= 0.8 * height && gap >= -height &&
+      if (same_row(glyph, word.box) && gap <= 0.4 * height && gap >= -height &&
           (home == nullptr || word.box.br().x > home->box.br().x))
         home = &word;
     }

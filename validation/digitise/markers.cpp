@@ -39,22 +39,6 @@ std::vector<cv::Point2d> guesses(const InkMap& map, const Template& marker) {
   return found;
 }
 
-/// The whole pixel near `guess` where the correlation is best: least squares would go astray from
-/// farther off than a thin stroke is wide.
-cv::Point2d nearest_peak(const InkMap& map, const Template& marker, cv::Point2d guess, int reach) {
-  const cv::Size size = marker.ink.size();
-  const cv::Rect wanted(cvRound(guess.x - size.width / 2.0) - reach,
-                        cvRound(guess.y - size.height / 2.0) - reach, size.width + 2 * reach,
-                        size.height + 2 * reach);
-  const cv::Rect there = wanted & cv::Rect(0, 0, map.coverage.cols, map.coverage.rows);
-  if (there != wanted) return guess;
-  cv::Mat score;
-  cv::matchTemplate(map.coverage(there), marker.ink, score, cv::TM_CCORR_NORMED);
-  cv::Point best;
-  cv::minMaxLoc(score, nullptr, nullptr, nullptr, &best);
-  return cv::Point2d(there.tl() + best) + cv::Point2d(size.width / 2.0, size.height / 2.0);
-}
-
 struct Candidate {
   std::size_t which;
   Fit fit;
@@ -87,8 +71,7 @@ std::vector<std::vector<Marker>> find_markers(const InkMap& map,
   std::vector<Candidate> candidates;
   for (std::size_t t = 0; t < templates.size(); ++t)
     for (const auto guess : guesses(map, templates[t])) {
-      const int reach = cvCeil(std::max(templates[t].box.width, templates[t].box.height) / 14) + 1;
-      const auto here = fit(templates[t], map, nearest_peak(map, templates[t], guess, reach));
+      const auto here = fit(templates[t], map, guess);
       if (good(here)) candidates.push_back({t, here});
     }
   std::sort(candidates.begin(), candidates.end(),

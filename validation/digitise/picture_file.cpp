@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "validation/digitise/picture_file.hpp"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <cstdint>
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
@@ -97,6 +100,27 @@ void check_size(const std::string& path, const Bytes& bytes, bool jpeg) {
     throw CutError("{}: expected the picture's end mark, found the end of the file", path);
 }
 
+/// While it lives nothing is written to stderr: libpng and libjpeg say there what we say better.
+class Silence {
+ public:
+  Silence() : kept_(dup(STDERR_FILENO)) {
+    const int nowhere = open("/dev/null", O_WRONLY);
+    if (nowhere < 0) return;
+    dup2(nowhere, STDERR_FILENO);
+    close(nowhere);
+  }
+  ~Silence() {
+    if (kept_ < 0) return;
+    dup2(kept_, STDERR_FILENO);
+    close(kept_);
+  }
+  Silence(const Silence&) = delete;
+  Silence& operator=(const Silence&) = delete;
+
+ private:
+  int kept_;
+};
+
 cv::Mat on_white(const cv::Mat& read) {
   cv::Mat eight = read, image;
   if (read.depth() == CV_16U) read.convertTo(eight, CV_8U, 1 / 257.0);
@@ -127,6 +151,7 @@ Picture read_picture(const std::filesystem::path& path) {
   check_size(path.string(), bytes, jpeg);
   cv::Mat read;
   try {
+    const Silence silence;
     read = cv::imdecode(bytes, cv::IMREAD_UNCHANGED | cv::IMREAD_IGNORE_ORIENTATION);
   } catch (const cv::Exception&) {
     read.release();

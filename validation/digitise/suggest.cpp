@@ -60,7 +60,7 @@ cv::Rect2d largest_area(const Rules& rules, cv::Size size) {
       if (!meet || row.length() * column.length() <= best.area()) continue;
       if (row.length() > 0.98 * size.width || column.length() > 0.98 * size.height) continue;
       best = plot_area(
-          rules, {row.from + 5, column.from + 5, row.length() - 10, column.length() - 10}, size);
+          rules, {row.from + 2, column.from + 2, row.length() - 4, column.length() - 4}, size);
     }
   return best;
 }

@@ -149,6 +149,23 @@ cv::Point2d turned_back(cv::Point2d p, int quarters) {
   return p;
 }
 
+/// The whole pixel near `guess` where the correlation is best: least squares would go astray from
+/// farther off than a thin stroke is wide.
+cv::Point2d nearest_peak(const InkMap& map, const Template& marker, cv::Point2d guess) {
+  const int reach = 2 + cvCeil(std::max(marker.box.width, marker.box.height) / 14);
+  const cv::Size size = marker.ink.size();
+  const cv::Rect wanted(cvRound(guess.x - size.width / 2.0) - reach,
+                        cvRound(guess.y - size.height / 2.0) - reach, size.width + 2 * reach,
+                        size.height + 2 * reach);
+  const cv::Rect there = wanted & cv::Rect(0, 0, map.coverage.cols, map.coverage.rows);
+  if (there != wanted) return guess;
+  cv::Mat score;
+  cv::matchTemplate(map.coverage(there), marker.ink, score, cv::TM_CCORR_NORMED);
+  cv::Point best;
+  cv::minMaxLoc(score, nullptr, nullptr, nullptr, &best);
+  return cv::Point2d(there.tl() + best) + cv::Point2d(size.width / 2.0, size.height / 2.0);
+}
+
 }  // namespace
 
 std::vector<Shape> candidates(const std::optional<Shape>& asked) {
@@ -196,13 +213,17 @@ std::pair<Shape, double> recognise(const cv::Mat& ink, const std::vector<Shape>&
                  cv::Matx23d(scale, 0, size.width / 2.0 - 0.5 - (cx - 0.5) * scale, 0, scale,
                              size.height / 2.0 - 0.5 - (cy - 0.5) * scale),
                  size, cv::INTER_LINEAR, cv::BORDER_CONSTANT, cv::Scalar(0));
+  // Both a little blurred, as scans and compressed pictures are.
+  cv::GaussianBlur(small, small, {}, 0.7);
   Shape best;
   double most = -1;
   const cv::Size2d drawn(box.width * scale, box.height * scale);
   for (const auto& shape : among)
     for (const double share : {0.07, 0.12, 0.18, 0.26}) {
       const double stroke = std::max(0.7, share * std::min(drawn.width, drawn.height));
-      const double now = correlation(small, draw_shape(shape, drawn, stroke, size));
+      cv::Mat candidate = draw_shape(shape, drawn, stroke, size);
+      cv::GaussianBlur(candidate, candidate, {}, 0.7);
+      const double now = correlation(small, candidate);
       if (now > most) {
         most = now;
         best = shape;
@@ -259,8 +280,9 @@ cv::Mat laid(const Template& marker, cv::Point2d origin, cv::Point middle) {
                                                   middle.y + (marker.ink.rows % 2) / 2.0));
 }
 
-Fit fit(const Template& marker, const InkMap& map, cv::Point2d guess) {
+Fit fit(const Template& marker, const InkMap& map, cv::Point2d near) {
   Fit found;
+  const auto guess = nearest_peak(map, marker, near);
   const cv::Size size = marker.ink.size();
   const cv::Point middle(cvFloor(guess.x), cvFloor(guess.y));
   const cv::Rect wanted(middle.x - size.width / 2, middle.y - size.height / 2, size.width,

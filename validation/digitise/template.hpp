@@ -43,9 +43,9 @@ std::vector<Shape> candidates(const std::optional<Shape>& asked);
 /// reference_of().
 Template make_template(const cv::Mat& ink, const Shape& shape);
 
-/// Least squares over the shift from `guess`, with weights that leave out what does not belong to
-/// the marker (lines through it, error bars, neighbours).
-Fit fit(const Template& marker, const InkMap& map, cv::Point2d guess);
+/// Least squares over the shift from the best whole pixel near `near`, with weights that leave out
+/// what does not belong to the marker (lines through it, error bars, neighbours).
+Fit fit(const Template& marker, const InkMap& map, cv::Point2d near);
 
 /// The part of `image` of the size of `like` whose middle is at `origin` (sub-pixel, cubic), with
 /// `outside` beyond the edges.

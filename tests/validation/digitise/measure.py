@@ -95,7 +95,7 @@ def summary(results):
     if markers:
         e = np.abs(np.concatenate([r["errors"].ravel() for r in markers]))
         u = np.concatenate([r["u"].ravel() for r in markers])
-        lines["markers"] = dict(series=len(markers), points=len(e) // 2, p95=float(np.percentile(e, 95)),
+        lines["markers"] = dict(series=len(markers), points=len(e) // 2, p95=float(np.percentile(e, 95)) if len(e) else math.nan,
                                 covered=float((e <= 2 * u).mean()), median_2u=float(np.median(2 * u)),
                                 missed=sum(r["missed"] for r in markers), invented=sum(r["invented"] for r in markers))
         bars = [r["bars"].ravel() for r in markers if "bars" in r]
@@ -112,3 +112,24 @@ def summary(results):
                               covered=float((e <= 2 * u).mean()), median_2u=float(np.median(2 * u)),
                               followed=float(np.mean([r["followed"] for r in curves])))
     return lines
+
+
+def demands(figures, errors, plots, few):
+    """What the promise is and is not kept, as texts. `few` plots are all digitised and none is wrong;
+    over many, of all styles, one in fifty markers may be."""
+    unmet = []
+
+    def need(holds, text):
+        if not holds:
+            unmet.append(text)
+
+    m, line = figures["markers"], figures["lines"]
+    need(errors <= (0 if few else plots // 30), f"{errors} of {plots} plots not digitised")
+    need(m["p95"] <= 0.003, f"markers' 95th percentile {m['p95']:.4f}, at most 0.003")
+    wrong = (m["missed"] + m["invented"]) / max(1, m["points"])
+    need(wrong <= (0.01 if few else 0.02), f"{m['missed']} markers missed, {m['invented']} invented of {m['points']}")
+    need(line["p95"] <= 0.005, f"lines' 95th percentile {line['p95']:.4f}, at most 0.005")
+    for name, kind in (("markers", m), ("lines", line)):
+        need(0.90 <= kind["covered"] <= 0.99, f"2u covers {kind['covered']:.3f} of the {name}, 0.90 to 0.99")
+        need(kind["median_2u"] <= 0.006, f"median 2u of the {name} {kind['median_2u']:.4f}, at most 0.006")
+    return unmet

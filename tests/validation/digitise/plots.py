@@ -187,10 +187,11 @@ def draw_matplotlib(d, path):
         ax.set_ylabel("ordinate [-]")
         if rng.random() < 0.4:
             ax.set_title("A title of the figure")
+        with_inset = held and rng.random() < 0.25
         if d["legend"]:
-            ax.legend(frameon=rng.random() < 0.6, loc="best" if not held else rng.choice(["best", "upper center"]))
-        if held and rng.random() < 0.25:
-            # An inset's tick labels hide data too.
+            where = "best" if not held else rng.choice(["best", "upper center"])
+            ax.legend(frameon=rng.random() < 0.6, loc="lower left" if with_inset else where)
+        if with_inset:
             inset = ax.inset_axes([0.62, 0.6, 0.33, 0.33])
             t = np.linspace(0, 1, 100)
             inset.plot(t, np.sin(5 * t), color=d["series"][0]["colour"])
