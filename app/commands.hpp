@@ -4,6 +4,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <functional>
 
 #include <string>
 #include <vector>
@@ -19,9 +20,13 @@ struct Common {
   bool json = false;
 };
 
+/// Runs `program`: its exit code, or that of what it throws, with one line on stderr.
+int exit_code_of(const std::function<int()>& program);
+
 void add_common(CLI::App& command, Common& common);
 void add_analyse(CLI::App& app);
 void add_curves(CLI::App& app);
+void add_digitise(CLI::App& app);
 void add_info(CLI::App& app);
 void add_validate(CLI::App& app, int& exit_code);
 

@@ -39,6 +39,8 @@ catches rooms 'readers/up.cpp:2: readers must not include analysis/grid.hpp' \
 catches rooms 'must not include readers/error.hpp' physics/up.hpp '#include <readers/error.hpp>\n'
 catches rooms 'must not include readers/series.hpp' report/a.cpp '# include "readers/series.hpp"\n'
 catches rooms 'must not include ../analysis/grid.hpp' readers/up.cpp '#include "../analysis/grid.hpp"\n'
+catches rooms 'validation/digitise must not include analysis/grid.hpp' \
+  validation/digitise/a.cpp '#include "analysis/grid.hpp"\n'
 passes rooms report/a.cpp '#include <vector>\n#include "readers/error.hpp"\n#include "analysis/grid.hpp"\n'
 passes rooms app/a.cpp '#include "cases/scene.hpp"\n'
 

@@ -12,6 +12,7 @@ rooms='physics:
 readers:
 analysis: readers/ physics/
 validation: readers/error.hpp readers/toml_table.hpp analysis/ physics/
+validation/digitise: readers/error.hpp
 report: readers/error.hpp analysis/ validation/
 cases: readers/error.hpp readers/toml_table.hpp physics/'
 

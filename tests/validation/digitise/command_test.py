@@ -1,0 +1,231 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`bedscope digitise` as a user meets it: bad input, several pictures, a marker shown, a suggestion.
+
+Usage: command_test.py BEDSCOPE [unittest arguments]. Exit code 77: numpy or Pillow is missing.
+"""
+import math
+import os
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+import zlib
+
+try:
+    import numpy as np
+    from PIL import Image, ImageDraw
+except ImportError as missing:
+    print(missing)
+    sys.exit(77)
+
+PROGRAM = os.path.abspath(sys.argv.pop(1)) if len(sys.argv) > 1 else "bedscope"
+FINE = 4  # drawn so much larger, then reduced: anti-aliased
+POINTS = [(0.2, 0.3), (0.4, 0.6), (0.5, 0.2), (0.7, 0.8), (0.9, 0.5)]
+
+
+def place(x, y):
+    """Pixel of a point of the test plot: axes 0 to 1 over pixels 60 to 360 and 260 to 20."""
+    return 60 + 300 * x, 260 - 240 * y
+
+
+def draw(path, points=POINTS, colour=(214, 39, 40), bars=None, turn=0.0):
+    image = Image.new("RGB", (400 * FINE, 300 * FINE), "white")
+    pen = ImageDraw.Draw(image)
+    corners = [place(0, 0), place(1, 0), place(1, 1), place(0, 1), place(0, 0)]
+    pen.line([(FINE * a, FINE * b) for a, b in corners], fill="black", width=FINE)
+    for tick in (0.25, 0.5, 0.75):
+        a, b = place(tick, 0)
+        pen.line([(FINE * a, FINE * b), (FINE * a, FINE * (b + 6))], fill="black", width=FINE)
+        a, b = place(0, tick)
+        pen.line([(FINE * (a - 6), FINE * b), (FINE * a, FINE * b)], fill="black", width=FINE)
+    for i, (x, y) in enumerate(points):
+        a, b = (FINE * q for q in place(x, y))
+        if bars:
+            top, bottom = (FINE * place(x, y + s * bars[i])[1] for s in (1, -1))
+            pen.line([(a, top), (a, bottom)], fill=colour, width=FINE)
+        pen.ellipse([a - 5 * FINE, b - 5 * FINE, a + 5 * FINE, b + 5 * FINE], fill=colour)
+    image = image.resize((400, 300), Image.BOX)
+    if turn:
+        image = image.rotate(turn, resample=Image.BICUBIC, fillcolor="white")
+    image.save(path)
+
+
+X = '[axes.x]\nname = "t"\nunit = "s"\npoints = [{ pixel = [60, 260], value = 0 }, { pixel = [360, 260], value = 1 }]\n'
+Y = '[axes.y]\nname = "h"\nunit = "m"\npoints = [{ pixel = [60, 260], value = 0 }, { pixel = [60, 20], value = 1 }]\n'
+SERIES = '[[series]]\nname = "a"\nkind = "markers"\ncolour = "#d62728"\n'
+
+
+class Command(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.mkdtemp(prefix="bedscope_")
+        self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
+        draw(self.at("fig.png"))
+
+    def at(self, name):
+        return os.path.join(self.folder, name)
+
+    def run_it(self, text, *more):
+        with open(self.at("fig.toml"), "w") as file:
+            file.write(text)
+        return subprocess.run([PROGRAM, "digitise", self.at("fig.toml"), "-o", self.at("out.csv"), *more],
+                              capture_output=True, text=True, timeout=120)
+
+    def rows(self, name="out.csv"):
+        with open(self.at(name)) as file:
+            return [line.rstrip("\n").split(",") for line in file]
+
+    def refuses(self, text, *words):
+        run = self.run_it(text)
+        self.assertEqual(run.returncode, 2, run.stderr + run.stdout)
+        self.assertEqual(run.stderr.count("\n"), 1, run.stderr)
+        for word in words:
+            self.assertIn(word, run.stderr)
+        self.assertFalse(os.path.exists(self.at("out.csv")))
+        self.assertFalse(os.path.exists(self.at("fig.digitised.png")))
+
+    def test_markers_with_units_and_an_overlay(self):
+        run = self.run_it('image = "fig.png"\n' + X + Y + SERIES)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        rows = self.rows()
+        self.assertEqual(rows[0], ["series", "t [s]", "t_u [s]", "h [m]", "h_u [m]"])
+        self.assertEqual(len(rows), 1 + len(POINTS))
+        for row, (x, y) in zip(rows[1:], POINTS):
+            self.assertEqual(row[0], "a")
+            # Drawn with Pillow, whose ellipses are off by up to a quarter of a pixel.
+            self.assertAlmostEqual(float(row[1]), x, delta=0.5 / 300)
+            self.assertAlmostEqual(float(row[3]), y, delta=0.5 / 240)
+        with Image.open(self.at("fig.digitised.png")) as overlay:
+            self.assertEqual(overlay.size, (400, 300))
+
+    def test_error_bars_give_the_values_at_their_ends(self):
+        bars = [0.1, 0.15, 0.12, 0.09, 0.2]
+        draw(self.at("fig.png"), bars=bars)
+        self.assertEqual(self.run_it('image = "fig.png"\n' + X + Y + SERIES).returncode, 0)
+        rows = self.rows()
+        self.assertEqual(rows[0][5:], ["h_lo [m]", "h_hi [m]"])
+        for row, (_, y), bar in zip(rows[1:], POINTS, bars):
+            self.assertAlmostEqual(float(row[5]), y - bar, delta=1.0 / 240)
+            self.assertAlmostEqual(float(row[6]), y + bar, delta=1.0 / 240)
+
+    def test_log_axis(self):
+        axis = Y.replace("value = 0 }", "value = 1 }").replace("[60, 20], value = 1", "[60, 20], value = 100")
+        run = self.run_it('image = "fig.png"\n' + X + axis + 'scale = "log"\n' + SERIES)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        for row, (_, y) in zip(self.rows()[1:], POINTS):
+            self.assertAlmostEqual(math.log10(float(row[3])), 2 * y, delta=0.01)
+            # Half a pixel of 240 over two decades, at most.
+            self.assertLess(float(row[4]) / float(row[3]), 0.02)
+
+    def test_a_turned_scan(self):
+        draw(self.at("fig.png"), turn=2.0)
+
+        def seen(x, y):
+            a, b = place(x, y)
+            c, s = math.cos(math.radians(2)), math.sin(math.radians(2))
+            return 200 + c * (a - 200) + s * (b - 150), 150 - s * (a - 200) + c * (b - 150)
+
+        def points(*at):
+            return ", ".join(f"{{ pixel = [{seen(*p)[0]:.1f}, {seen(*p)[1]:.1f}], value = {v} }}" for p, v in at)
+
+        axes = (f"[axes.x]\npoints = [{points(((0, 0), 0), ((1, 0), 1))}]\n"
+                f"[axes.y]\npoints = [{points(((0, 0), 0), ((0, 1), 1))}]\n")
+        run = self.run_it('image = "fig.png"\n' + axes + SERIES)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn("turned upright by -2.0", run.stdout)
+        for row, (x, y) in zip(self.rows()[1:], POINTS):
+            self.assertAlmostEqual(float(row[1]), x, delta=0.6 / 300)
+            self.assertAlmostEqual(float(row[3]), y, delta=0.6 / 240)
+
+    def test_one_file_for_several_pictures(self):
+        draw(self.at("second.png"), points=[(0.3, 0.3), (0.6, 0.4)])
+        run = self.run_it('image = ["fig.png", "second.png"]\n' + X + Y + SERIES)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        folder = self.at("out.csv")  # a folder where there are several pictures
+        self.assertEqual(sorted(os.listdir(folder)), ["fig.digitised.csv", "fig.digitised.png",
+                                                      "second.digitised.csv", "second.digitised.png"])
+        self.assertEqual(len(self.rows("out.csv/second.digitised.csv")), 3)
+
+    def test_a_marker_shown_as_a_template(self):
+        a, b = place(*POINTS[0])
+        # The reference a pixel to the right of the middle: all points follow.
+        shown = f"template = [{a - 8:.0f}, {b - 8:.0f}, 16, 16]\nreference = [{a + 1:.1f}, {b:.1f}]\n"
+        run = self.run_it('image = "fig.png"\n' + X + Y + SERIES + shown)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        rows = self.rows()
+        self.assertEqual(len(rows), 1 + len(POINTS))
+        for row, (x, _) in zip(rows[1:], POINTS):
+            self.assertAlmostEqual(float(row[1]), x + 1 / 300, delta=0.7 / 300)
+
+    def test_excluded_parts_are_not_looked_at(self):
+        a, b = place(*POINTS[0])
+        run = self.run_it(f'image = "fig.png"\nexclude = [[{a - 10:.0f}, {b - 10:.0f}, 20, 20]]\n' + X + Y + SERIES)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertEqual(len(self.rows()), len(POINTS))
+
+    def test_suggestion_shows_area_and_ticks(self):
+        run = subprocess.run([PROGRAM, "digitise", "--suggest", self.at("fig.png")], capture_output=True, text=True)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn('image = "fig.png"', run.stdout)
+        area = next(line for line in run.stdout.splitlines() if line.startswith("plot_area"))
+        left, top, width, height = (float(q) for q in area.split("[")[1].rstrip("]").split(","))
+        for found, drawn in ((left, 60), (top, 20), (width, 300), (height, 240)):
+            self.assertAlmostEqual(found, drawn, delta=2)
+        for tick in (0.25, 0.5, 0.75):
+            x = place(tick, 0)[0]
+            self.assertTrue(any(abs(float(line.split("[")[1].split(",")[0]) - x) < 1 for line in
+                                run.stdout.splitlines() if "pixel" in line), f"{tick}: {run.stdout}")
+
+    def test_bad_files_end_in_one_line(self):
+        head = 'image = "fig.png"\n'
+        self.refuses(head + X + Y + SERIES.replace("d62728", "2ca02c"), "fig.png", '"a"', "#2ca02c", "found none")
+        self.refuses(head + X.replace("[360, 260]", "[60, 260]") + Y + SERIES, "axes.x", "singular")
+        self.refuses(head + X.replace("value = 1", "value = 0") + Y + SERIES, "axes.x", "singular")
+        self.refuses(head + X + 'scale = "log"\n' + Y + SERIES, "above 0 on a log axis")
+        self.refuses(head + X + 'scale = "cubic"\n' + Y + SERIES, "line 6", '"cubic"')
+        self.refuses(head + X + Y + SERIES + 'shape = "heart"\n', "series.shape", '"heart"')
+        self.refuses(head + X + Y + SERIES.replace('"markers"', '"bars"'), "series.kind", '"bars"')
+        self.refuses(head + X + Y + SERIES + "color = 1\n", "series.color", "series.colour")
+        self.refuses(head + X + Y + SERIES.replace("#d62728", "#d6272"), "series.colour", "#d6272")
+        self.refuses(head + X + SERIES, "axes.y is missing")
+        self.refuses(head + X + Y, "no [[series]]")
+        self.refuses('image = "none.png"\n' + X + Y + SERIES, "none.png")
+        self.refuses(head + "plot_area = [900, 900, 50, 50]\n" + X + Y + SERIES, "plot_area")
+        three = X.replace("}]", "}, { pixel = [210, 260], value = 0.8 }]")
+        self.refuses(head + three + Y + SERIES, "axes.x", "linear scale")
+
+    def test_bad_pictures_end_in_one_line(self):
+        text = 'image = "bad.png"\n' + X + Y + SERIES
+        with open(self.at("fig.png"), "rb") as file:
+            whole = file.read()
+
+        def bad(content, *words):
+            with open(self.at("bad.png"), "wb") as file:
+                file.write(content)
+            self.refuses(text, "bad.png", *words)
+
+        bad(b"", "PNG or JPEG")
+        bad(b"GIF89a", "PNG or JPEG")
+        bad(whole[:20], "end of the file")
+        bad(whole[:len(whole) // 2], "end")
+        header = struct.pack(">IIBBBBB", 60000, 60000, 8, 2, 0, 0, 0)
+        chunk = struct.pack(">I", 13) + b"IHDR" + header + struct.pack(">I", zlib.crc32(b"IHDR" + header))
+        bad(whole[:8] + chunk + whole[33:], "60000 x 60000")
+        header = struct.pack(">IIBBBBB", 8000, 8000, 8, 2, 0, 0, 0)
+        chunk = struct.pack(">I", 13) + b"IHDR" + header + struct.pack(">I", zlib.crc32(b"IHDR" + header))
+        bad(whole[:8] + chunk + whole[33:60] + b"IEND", "cannot hold")
+        bad(whole[:60] + bytes(200) + whole[260:], "damaged")
+
+    def test_same_result_every_time(self):
+        text = 'image = "fig.png"\n' + X + Y + SERIES
+        self.run_it(text)
+        with open(self.at("out.csv"), "rb") as file:
+            first = file.read()
+        self.run_it(text, "--threads", "1")
+        with open(self.at("out.csv"), "rb") as file:
+            self.assertEqual(file.read(), first)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The parts of the digitiser that have a closed form.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "readers/error.hpp"
+#include "validation/digitise/calibration.hpp"
+#include "validation/digitise/page.hpp"
+#include "validation/digitise/rules.hpp"
+#include "validation/digitise/table.hpp"
+#include "validation/digitise/template.hpp"
+
+namespace bedscope::digitise {
+namespace {
+
+AxisSpec axis(std::vector<CalibrationPoint> points, bool log = false) {
+  AxisSpec spec;
+  spec.name = "v";
+  spec.log = log;
+  spec.points = std::move(points);
+  return spec;
+}
+
+TEST(Calibration, TwoPointsAreALineAndTheirErrorIsThatOfTheirPixels) {
+  const auto spec = axis({{{100, 0}, 2.0}, {{300, 0}, 6.0}});
+  const auto found = calibrate(spec, {100, 300}, "f");
+  EXPECT_DOUBLE_EQ(found.value(150), 3.0);
+  EXPECT_DOUBLE_EQ(found.pixel(5.0), 250.0);
+  // Whole pixels: 0.29 px each. In the middle the mean of two, at an end that of one.
+  EXPECT_NEAR(found.uncertainty(200, 0), 0.02 * 0.29 / std::sqrt(2.0), 1e-12);
+  EXPECT_NEAR(found.uncertainty(300, 0), 0.02 * 0.29, 1e-12);
+  EXPECT_NEAR(found.uncertainty(200, 1.0), 0.02 * std::hypot(1.0, 0.29 / std::sqrt(2.0)), 1e-12);
+}
+
+TEST(Calibration, LogAxisIsLinearInTheLogarithm) {
+  const auto spec = axis({{{0.5, 0}, 0.01}, {{200.5, 0}, 100}}, true);
+  const auto found = calibrate(spec, {0.5, 200.5}, "f");
+  EXPECT_NEAR(found.value(100.5), 1.0, 1e-12);
+  EXPECT_NEAR(found.pixel(10), 150.5, 1e-9);
+  // du/u = ln(10) du_log: one pixel is 0.02 decades; fractions of a pixel were given: 0.1 px each.
+  EXPECT_NEAR(found.uncertainty(100.5, 1.0),
+              std::log(10.0) * 0.02 * std::hypot(1.0, 0.1 / std::sqrt(2.0)), 1e-12);
+}
+
+TEST(Calibration, SingularAndImpossibleOnesAreErrors) {
+  EXPECT_THROW(calibrate(axis({{{5, 0}, 1.0}, {{5, 9}, 2.0}}), {5, 5}, "f"), InputError);
+  EXPECT_THROW(calibrate(axis({{{5, 0}, 1.0}, {{95, 0}, 1.0}}), {5, 95}, "f"), InputError);
+  EXPECT_THROW(calibrate(axis({{{5, 0}, 0.0}, {{95, 0}, 1.0}}, true), {5, 95}, "f"), InputError);
+  EXPECT_THROW(calibrate(axis({{{0, 0}, 0}, {{50, 0}, 8}, {{100, 0}, 10}}), {0, 50, 100}, "f"),
+               InputError);
+}
+
+TEST(Calibration, AngleOfPointsNeedsAxesThatAgree) {
+  Figure figure;
+  figure.x = axis({{{100, 500}, 0}, {{500, 486}, 1}});
+  figure.y = axis({{{100, 500}, 0}, {{86, 100}, 1}});
+  EXPECT_NEAR(angle_of_points(figure), std::atan2(14, 400) * 180 / M_PI, 1e-9);
+  figure.y = axis({{{100, 500}, 0}, {{500, 100}, 1}});  // the far corner for both axes
+  EXPECT_TRUE(std::isnan(angle_of_points(figure)));
+}
+
+TEST(Page, PointsGoThereAndBack) {
+  const cv::Mat picture(300, 400, CV_8UC3, cv::Scalar::all(255));
+  const Page page(picture, 2.0, 2);
+  const cv::Point2d point(123.25, 77.5), back = page.to_picture(page.to_page(point));
+  EXPECT_NEAR(back.x, point.x, 1e-9);
+  EXPECT_NEAR(back.y, point.y, 1e-9);
+  // What leans 2 degrees anticlockwise is level on the page.
+  const auto a = page.to_page({0, 200}),
+             b = page.to_page({300, 200 - 300 * std::tan(2 * M_PI / 180)});
+  EXPECT_NEAR(a.y, b.y, 1e-9);
+}
+
+TEST(Rules, AFrameIsFoundBelowAPixel) {
+  cv::Mat ink = cv::Mat::zeros(300, 400, CV_32F);
+  // A line 2 px thick from y = 50.25 to 52.25: rows 50 to 52 covered by 0.75, 1, 0.25.
+  for (const auto& [row, share] : {std::pair{50, 0.75F}, {51, 1.0F}, {52, 0.25F}})
+    ink.row(row).colRange(40, 360).setTo(share);
+  const auto rules = find_rules(ink, 100, 5);
+  ASSERT_EQ(rules.rows.size(), 1U);
+  EXPECT_NEAR(rules.rows[0].at, 51.25, 0.01);
+  EXPECT_NEAR(rules.rows[0].thickness, 2.0, 0.01);
+  EXPECT_DOUBLE_EQ(rules.rows[0].from, 40);
+  EXPECT_DOUBLE_EQ(rules.rows[0].to, 360);
+}
+
+TEST(Shapes, NamesInManyWords) {
+  EXPECT_EQ(shape_of("open triangle")->outline, Outline::triangle);
+  EXPECT_EQ(shape_of("open triangle")->fill, Fill::open);
+  EXPECT_EQ(shape_of("Triangle-down")->outline, Outline::triangle_down);
+  EXPECT_EQ(shape_of("s")->outline, Outline::square);
+  EXPECT_EQ(shape_of("filled_circle")->fill, Fill::filled);
+  EXPECT_FALSE(shape_of("heart"));
+}
+
+TEST(Shapes, DrawnShapesHaveTheAreaOfTheirGeometry) {
+  const auto area = [](Outline outline, Fill fill, double stroke) {
+    return cv::sum(draw_shape({outline, fill}, {20, 20}, stroke, {40, 40}))[0];
+  };
+  // Corners are rounded to an eighth of a pixel, and edges drawn a sixteenth outside.
+  EXPECT_NEAR(area(Outline::square, Fill::filled, 1), 400, 8);
+  EXPECT_NEAR(area(Outline::circle, Fill::filled, 1), M_PI * 100, 6);
+  EXPECT_NEAR(area(Outline::triangle, Fill::filled, 1), 200, 6);
+  EXPECT_NEAR(area(Outline::square, Fill::open, 2), 400 - 256, 10);
+  EXPECT_NEAR(area(Outline::plus, Fill::any, 2), 2 * 40 - 4, 6);
+}
+
+TEST(Shapes, EveryDrawnShapeIsRecognised) {
+  for (const auto& shape : candidates(std::nullopt)) {
+    const auto [found, likeness] =
+        recognise(draw_shape(shape, {21, 21}, 2, {27, 27}), candidates(std::nullopt));
+    EXPECT_EQ(found.outline, shape.outline) << name_of(shape);
+    EXPECT_EQ(found.fill, shape.fill) << name_of(shape);
+    EXPECT_GT(likeness, 0.95) << name_of(shape);
+  }
+}
+
+TEST(Template, FitFindsAShiftedMarkerBelowATenthOfAPixel) {
+  for (const auto outline : {Outline::circle, Outline::triangle, Outline::x}) {
+    const Shape shape{outline, Fill::filled};
+    const auto marker = make_template(draw_shape(shape, {16, 16}, 2, {20, 20}), shape);
+    for (const cv::Point2d off : {cv::Point2d(0.3, -0.4), cv::Point2d(-0.15, 0.25)}) {
+      const InkMap map{draw_shape(shape, {16, 16}, 2, {60, 60}, off),
+                       cv::Mat::zeros(60, 60, CV_8U)};
+      const auto found = fit(marker, map, {31, 29});
+      EXPECT_NEAR(found.origin.x, 30 + off.x, 0.1);
+      EXPECT_NEAR(found.origin.y, 30 + off.y, 0.1);
+      EXPECT_GT(found.score, 0.95);
+    }
+  }
+}
+
+TEST(Template, ReferenceOfATriangleIsTheMiddleOfItsBox) {
+  const Shape shape{Outline::triangle, Fill::filled};
+  const auto marker = make_template(draw_shape(shape, {24, 24}, 1, {30, 30}), shape);
+  EXPECT_NEAR(marker.reference.x, 0, 0.1);
+  EXPECT_NEAR(marker.reference.y, reference_of(Outline::triangle, {24, 24}).at.y * 24, 0.25);
+  EXPECT_NEAR(marker.box.height, 24, 0.5);
+}
+
+TEST(Table, QuotesNamesAndWritesNan) {
+  Figure figure;
+  figure.x.name = "z";
+  figure.x.unit = "m";
+  figure.y.name = "holdup";
+  Digitised found;
+  Point point;
+  point.x = 1;
+  point.x_u = 0.01;
+  point.y = 0.5;
+  point.y_u = 0.002;
+  point.hi = 0.6;
+  found.series.push_back({"a, \"b\"", Kind::markers, "", {point}});
+  EXPECT_EQ(table_of(found, figure),
+            "series,z [m],z_u [m],holdup [-],holdup_u [-],holdup_lo [-],holdup_hi [-]\n"
+            "\"a, \"\"b\"\"\",1,0.01,0.5,0.002,nan,0.6\n");
+}
+
+}  // namespace
+}  // namespace bedscope::digitise

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "validation/digitise/clear.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bedscope::digitise {
+namespace {
+
+/// A row is part of a rule where ink is spread over all of it: in each of 16 pieces.
+bool spread(const cv::Mat& row, double least) {
+  constexpr int pieces = 16;
+  int with = 0;
+  double share = 0;
+  for (int piece = 0; piece < pieces; ++piece) {
+    const int from = row.cols * piece / pieces, to = row.cols * (piece + 1) / pieces;
+    int inked = 0;
+    for (int x = from; x < to; ++x) inked += row.at<float>(x) > 0.06F;
+    with += inked > 0.08 * (to - from);
+    share += static_cast<double>(inked) / (to - from) / pieces;
+  }
+  return with >= pieces - 1 && share > least;
+}
+
+void clear_row(cv::Mat coverage, cv::Mat unknown) {
+  std::vector<float> inked;
+  for (int x = 0; x < coverage.cols; ++x)
+    if (coverage.at<float>(x) > 0.06F) inked.push_back(coverage.at<float>(x));
+  std::sort(inked.begin(), inked.end());
+  const float pale = inked[inked.size() / 2], upper = inked[inked.size() * 3 / 4];
+  if (pale > 0.6F) {
+    unknown.setTo(255);
+    coverage.setTo(0);
+    return;
+  }
+  for (int x = 0; x < coverage.cols; ++x) {
+    float& share = coverage.at<float>(x);
+    share = share < 1.15F * upper + 0.05F ? 0 : (share - pale) / (1 - pale);
+  }
+}
+
+/// Rows of rules, each with its paler edge rows.
+void clear_rows(cv::Mat coverage, cv::Mat unknown) {
+  const int rows = coverage.rows;
+  std::vector<bool> ruled(rows);
+  for (int y = 0; y < rows; ++y) ruled[y] = spread(coverage.row(y), 0.25);
+  // A rule is thin: where a tenth of the rows around are ruled this is a picture, not a grid.
+  int widest = 0, run = 0;
+  for (int y = 0; y < rows; ++y) {
+    run = ruled[y] ? run + 1 : 0;
+    widest = std::max(widest, run);
+  }
+  if (widest > std::max(12, rows / 25)) return;
+  for (int y = 0; y < rows; ++y)
+    if (ruled[y]) clear_row(coverage.row(y), unknown.row(y));
+}
+
+/// Strokes that stick in from the left edge of the map, up to a twentieth of its width.
+void clear_ticks(cv::Mat coverage, cv::Mat unknown) {
+  const int longest = std::max(8, coverage.cols / 20);
+  for (int y = 0; y < coverage.rows; ++y) {
+    int x = 0;
+    while (x < coverage.cols && unknown.at<uchar>(y, x) != 0) ++x;
+    if (x > longest) continue;
+    const int first = x;
+    while (x < coverage.cols && coverage.at<float>(y, x) > 0.12F) ++x;
+    if (x == first || x - first > longest) continue;
+    // Thin: no more than a few rows start here together.
+    int thick = 1;
+    for (const int step : {-1, 1})
+      for (int row = y + step; row >= 0 && row < coverage.rows &&
+                               coverage.at<float>(row, first) > 0.12F && thick < longest;
+           row += step)
+        ++thick;
+    if (thick > std::max(5, coverage.rows / 60)) continue;
+    const auto tick = cv::Range(0, std::min(coverage.cols, x + 1));
+    unknown(cv::Range(y, y + 1), tick).setTo(255);
+    coverage(cv::Range(y, y + 1), tick).setTo(0);
+  }
+}
+
+cv::Mat mirrored(const cv::Mat& m) {
+  cv::Mat copy;
+  cv::flip(m, copy, 1);
+  return copy;
+}
+
+}  // namespace
+
+void clear_rules(InkMap& map) {
+  clear_rows(map.coverage, map.unknown);
+  cv::Mat coverage = map.coverage.t(), unknown = map.unknown.t();
+  clear_rows(coverage, unknown);
+  for (int turn = 0; turn < 2; ++turn) {  // top, bottom; then left, right
+    clear_ticks(coverage, unknown);
+    cv::Mat far_coverage = mirrored(coverage), far_unknown = mirrored(unknown);
+    clear_ticks(far_coverage, far_unknown);
+    coverage = mirrored(far_coverage).t();
+    unknown = mirrored(far_unknown).t();
+  }
+  map.coverage = coverage.t();
+  map.unknown = unknown.t();
+}
+
+}  // namespace bedscope::digitise

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "validation/digitise/colour.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <opencv2/imgproc.hpp>
+#include <optional>
+
+#include "readers/error.hpp"
+#include "validation/digitise/page.hpp"
+
+namespace bedscope::digitise {
+namespace {
+
+constexpr float faint = 0.12F;     // of full contrast: below it is paper
+constexpr float same_ink = 60.0F;  // distance in BGR within which a colour is the one asked for
+
+/// Luma of a BGR difference (ITU-R BT.601): what JPEG keeps sharp.
+float luma(cv::Vec3f d) { return 0.114F * d[0] + 0.587F * d[1] + 0.299F * d[2]; }
+
+float length(cv::Vec3f d) { return static_cast<float>(cv::norm(d)); }
+
+/// The share of `ink` (paper subtracted) that leaves the least of `d`, and what it leaves.
+struct Share {
+  float share, rest;
+};
+Share share_of(cv::Vec3f d, cv::Vec3f ink) {
+  const float share = std::clamp(d.dot(ink) / ink.dot(ink), 0.0F, 1.15F);
+  return {share, length(d - share * ink)};
+}
+
+/// The same for a compressed picture, which keeps the luma sharp and smears the colour: the luma
+/// tells the share, and the colour may have lost up to 0.6 of its strength.
+Share smeared_share_of(cv::Vec3f d, cv::Vec3f ink) {
+  const float y = luma(d), full = luma(ink);
+  if (std::abs(full) < 55) return share_of(d, ink);
+  const float share = std::clamp(y / full, 0.0F, 1.15F);
+  const cv::Vec2f seen(0.564F * (d[0] - y), 0.713F * (d[2] - y));
+  const cv::Vec2f own = share * cv::Vec2f(0.564F * (ink[0] - full), 0.713F * (ink[2] - full));
+  const float strength =
+      own.dot(own) > 0 ? std::clamp(seen.dot(own) / own.dot(own), 0.4F, 1.3F) : 0;
+  return {share, static_cast<float>(cv::norm(seen - strength * own)) + std::abs(y - share * full)};
+}
+
+/// Pixels whose difference from the paper is no weaker than their neighbours': the cores of areas
+/// and the ridges of lines, which show an ink least mixed.
+std::vector<cv::Vec3f> core_colours(const cv::Mat& difference) {
+  std::vector<cv::Vec3f> cores;
+  for (int y = 1; y + 1 < difference.rows; ++y)
+    for (int x = 1; x + 1 < difference.cols; ++x) {
+      const auto d = difference.at<cv::Vec3f>(y, x);
+      const float here = length(d);
+      if (here < 40) continue;
+      const auto weaker = [&](int dy, int dx) {
+        return length(difference.at<cv::Vec3f>(y + dy, x + dx)) <= here + 6 &&
+               length(difference.at<cv::Vec3f>(y - dy, x - dx)) <= here + 6;
+      };
+      if ((weaker(0, 1) || weaker(1, 0)) && (weaker(1, 1) || weaker(1, -1))) cores.push_back(d);
+    }
+  return cores;
+}
+
+/// The colour of the picture that is meant by `asked`: the mean of the core colours near it;
+/// `asked` itself where a compressed picture only shows it thinned. Nothing where fewer than
+/// `least` are near.
+std::optional<cv::Vec3f> find_again(const std::vector<cv::Vec3f>& cores, cv::Vec3f asked,
+                                    bool lossy, std::size_t least) {
+  for (const float tolerance : {18.0F, 35.0F, same_ink, 1.5F * same_ink}) {
+    cv::Vec3d sum;
+    std::size_t n = 0;
+    for (const auto& core : cores)
+      if (length(core - asked) < tolerance) {
+        sum += cv::Vec3d(core);
+        ++n;
+      }
+    if (n >= least) return cv::Vec3f(sum / static_cast<double>(n));
+  }
+  const auto thinned = std::count_if(cores.begin(), cores.end(), [&](cv::Vec3f core) {
+    const auto [share, rest] = smeared_share_of(core, asked);
+    return share > 0.25F && rest < 20;
+  });
+  if (lossy && static_cast<std::size_t>(thinned) >= least) return asked;
+  return std::nullopt;
+}
+
+/// A colour that is a mixture of paper and one of `inks`, or nearly one of them.
+bool is_mixture(cv::Vec3f colour, const std::vector<cv::Vec3f>& inks, bool lossy) {
+  return std::any_of(inks.begin(), inks.end(), [&](cv::Vec3f ink) {
+    return lossy ? smeared_share_of(colour, ink).rest < 40 : share_of(colour, ink).rest < 30;
+  });
+}
+
+/// Inks that nobody asked for: the commonest core colours that are no mixture of known ones.
+void add_others(const std::vector<cv::Vec3f>& cores, bool lossy, std::vector<cv::Vec3f>& inks) {
+  std::map<int, std::pair<cv::Vec3d, int>> boxes;
+  for (const auto& core : cores) {
+    const auto step = [](float v) { return static_cast<int>(std::floor(v / 24)) + 32; };
+    auto& [sum, n] = boxes[(step(core[0]) * 64 + step(core[1])) * 64 + step(core[2])];
+    sum += cv::Vec3d(core);
+    ++n;
+  }
+  std::vector<std::pair<int, cv::Vec3f>> sorted;
+  for (const auto& [key, box] : boxes)
+    sorted.emplace_back(box.second, cv::Vec3f(box.first / box.second));
+  std::sort(sorted.begin(), sorted.end(),
+            [](const auto& a, const auto& b) { return a.first > b.first; });
+  const auto least = std::max<std::size_t>(30, cores.size() / 200);
+  for (const auto& [n, colour] : sorted)
+    if (static_cast<std::size_t>(n) >= least && inks.size() < 24 && length(colour) > 60 &&
+        !is_mixture(colour, inks, lossy))
+      inks.push_back(colour);
+}
+
+/// Inks in line with a stronger one (a light and a dark blue, grey and black): the edges of the
+/// stronger look like the weaker; an edge pixel beside a stronger one belongs to it.
+void give_edges_to_stronger(const std::vector<cv::Vec3f>& inks, const cv::Mat& difference,
+                            Colours& colours) {
+  for (int weak = 0; weak < static_cast<int>(inks.size()); ++weak)
+    for (int strong = 0; strong < static_cast<int>(inks.size()); ++strong) {
+      if (weak == strong || length(inks[weak]) >= length(inks[strong])) continue;
+      if (share_of(inks[weak], inks[strong]).rest > 45) continue;
+      cv::Mat mine, near;
+      cv::compare(colours.owner, strong, mine, cv::CMP_EQ);
+      cv::dilate(mine, near, cv::Mat::ones(3, 3, CV_8U));
+      for (int y = 0; y < near.rows; ++y)
+        for (int x = 0; x < near.cols; ++x) {
+          if (near.at<uchar>(y, x) == 0 || colours.owner.at<int>(y, x) != weak) continue;
+          colours.owner.at<int>(y, x) = strong;
+          colours.coverage.at<float>(y, x) =
+              std::min(1.0F, share_of(difference.at<cv::Vec3f>(y, x), inks[strong]).share);
+        }
+    }
+}
+
+/// Compression and scanning leave the paper uneven near ink; drawing programs leave it exact.
+bool is_noisy(const cv::Mat& difference) {
+  std::size_t uneven = 0, flat = 0;
+  for (int y = 0; y < difference.rows; ++y)
+    for (int x = 0; x < difference.cols; ++x) {
+      const float d = length(difference.at<cv::Vec3f>(y, x));
+      flat += d < 1.5F;
+      uneven += d >= 1.5F && d < 15;
+    }
+  return uneven > flat / 15;
+}
+
+/// The share that tells where an edge lies: of the luma where the picture was compressed and the
+/// ink is dark enough, as the other channels are smeared there; else of the whole colour.
+float sharp_share(cv::Vec3f d, cv::Vec3f ink, bool lossy) {
+  const float full = luma(ink);
+  if (lossy && std::abs(full) > 55) return std::clamp(luma(d) / full, 0.0F, 1.0F);
+  return std::clamp(d.dot(ink) / ink.dot(ink), 0.0F, 1.0F);
+}
+
+}  // namespace
+
+Colours separate(const cv::Mat& page, const cv::Rect& area, bool lossy,
+                 const std::vector<cv::Vec3f>& asked, const std::vector<std::string>& names,
+                 const std::string& where) {
+  Colours colours;
+  colours.paper = paper_of(page, area);
+  cv::Mat difference;
+  page.convertTo(difference, CV_32F);
+  difference -= cv::Scalar(colours.paper[0], colours.paper[1], colours.paper[2]);
+  colours.lossy = lossy || is_noisy(difference(area));
+  const auto cores = core_colours(difference(area));
+  std::vector<cv::Vec3f> inks;
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    const auto found = find_again(cores, asked[i] - colours.paper, colours.lossy, 12);
+    if (!found || length(*found) < 25)
+      throw InputError(
+          "{}: series \"{}\": expected pixels of colour {} in the plot area, found none", where,
+          names[i], hex_of(asked[i]));
+    inks.push_back(*found);
+  }
+  add_others(cores, colours.lossy, inks);
+
+  cv::Mat blurred = difference;
+  if (colours.lossy) cv::GaussianBlur(difference, blurred, {}, 1.1);
+  colours.owner = cv::Mat(page.size(), CV_32S, cv::Scalar(-1));
+  colours.coverage = cv::Mat::zeros(page.size(), CV_32F);
+  for (int y = 0; y < page.rows; ++y)
+    for (int x = 0; x < page.cols; ++x) {
+      const auto d = difference.at<cv::Vec3f>(y, x);
+      if (length(d) < 14) continue;
+      const auto who = blurred.at<cv::Vec3f>(y, x);
+      int best = -1;
+      float least = 1e9F;
+      for (int k = 0; k < static_cast<int>(inks.size()); ++k) {
+        const auto [share, rest] =
+            colours.lossy ? smeared_share_of(who, inks[k]) : share_of(who, inks[k]);
+        const float cost = rest + 12 * std::max(0.0F, 1 - share);  // of two in line, the nearer one
+        if (share > 0.02F && cost < least) {
+          least = cost;
+          best = k;
+        }
+      }
+      if (best < 0) continue;
+      const float share = sharp_share(d, inks[best], colours.lossy);
+      if (share < faint / 3) continue;
+      colours.owner.at<int>(y, x) = best;
+      colours.coverage.at<float>(y, x) = share;
+    }
+  give_edges_to_stronger(inks, difference, colours);
+  for (const auto& ink : inks) colours.inks.push_back(ink + colours.paper);
+  return colours;
+}
+
+cv::Mat coverage_of(const Colours& colours, int index) {
+  cv::Mat mine, coverage = cv::Mat::zeros(colours.coverage.size(), CV_32F);
+  cv::compare(colours.owner, index, mine, cv::CMP_EQ);
+  colours.coverage.copyTo(coverage, mine);
+  return coverage;
+}
+
+cv::Mat hidden_from(const Colours& colours, int index) {
+  cv::Mat others, strong, mine;
+  cv::compare(colours.owner, index, mine, cv::CMP_EQ);
+  cv::compare(colours.coverage, 0.3, strong, cv::CMP_GT);
+  cv::bitwise_not(mine, others);
+  return others & strong;
+}
+
+std::vector<cv::Vec3f> inks_in(const cv::Mat& page, const cv::Rect& area) {
+  const auto paper = paper_of(page, area);
+  cv::Mat difference;
+  page(area).convertTo(difference, CV_32F);
+  difference -= cv::Scalar(paper[0], paper[1], paper[2]);
+  std::vector<cv::Vec3f> inks;
+  add_others(core_colours(difference), true, inks);
+  for (auto& ink : inks) ink += paper;
+  return inks;
+}
+
+std::string hex_of(cv::Vec3f colour) {
+  return fmt::format("#{:02x}{:02x}{:02x}", cvRound(colour[2]), cvRound(colour[1]),
+                     cvRound(colour[0]));
+}
+
+}  // namespace bedscope::digitise

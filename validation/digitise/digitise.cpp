@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <opencv2/imgproc.hpp>
+
+#include "readers/error.hpp"
+#include "validation/digitise/calibration.hpp"
+#include "validation/digitise/clear.hpp"
+#include "validation/digitise/colour.hpp"
+#include "validation/digitise/error_bars.hpp"
+#include "validation/digitise/legend.hpp"
+#include "validation/digitise/lines.hpp"
+#include "validation/digitise/markers.hpp"
+#include "validation/digitise/overlay.hpp"
+#include "validation/digitise/page.hpp"
+#include "validation/digitise/rules.hpp"
+#include "validation/digitise/uncertainty.hpp"
+
+namespace bedscope::digitise {
+namespace {
+
+cv::Rect2d box_of_points(const Figure& figure, const Page& page) {
+  std::vector<cv::Point2d> points;
+  for (const auto* axis : {&figure.x, &figure.y})
+    for (const auto& point : axis->points) points.push_back(page.to_page(point.pixel));
+  cv::Point2d low = points[0], high = points[0];
+  for (const auto& p : points) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  return {low, high};
+}
+
+/// What is neither the page's paper nor the plot's, which may be shaded.
+cv::Mat ink_of_page(const Page& page, const cv::Rect2d& plot) {
+  const auto& image = page.image();
+  const cv::Rect whole({0, 0}, image.size());
+  cv::Rect inside = cv::Rect(plot) & whole;
+  if (inside.empty()) inside = whole;
+  return cv::min(ink_of(image, paper_of(image, whole)), ink_of(image, paper_of(image, inside)));
+}
+
+double shorter_side(const cv::Rect2d& box) {
+  return std::max(8.0, std::min(box.width, box.height));
+}
+
+double thickest(const cv::Rect2d& box) { return std::max(5.0, 0.02 * shorter_side(box)); }
+
+/// The picture made upright: by the angle that the file gives, or that the calibration points show
+/// (the picture itself where they do not tell), made finer by the straight lines in the picture.
+Page upright(const cv::Mat& picture, const Figure& figure) {
+  const auto box = box_of_points(figure, Page(picture, 0));
+  const double stroke =
+      stroke_width(ink_of(picture, paper_of(picture, {0, 0, picture.cols, picture.rows})));
+  const int reduction = reduction_for(std::max(box.width, box.height), stroke);
+  if (figure.rotation) return {picture, *figure.rotation, reduction};
+  double angle = angle_of_points(figure);
+  if (std::isnan(angle)) angle = angle_of_ink(picture);
+  Page page(picture, angle, reduction);
+  const auto inside = box_of_points(figure, page);
+  const auto rest =
+      angle_of(find_rules(ink_of_page(page, inside), 0.5 * shorter_side(inside), thickest(inside)));
+  if (!rest || std::abs(*rest) < 0.01 || std::abs(*rest) > 0.5) return page;
+  return {picture, angle + *rest, reduction};
+}
+
+Calibration calibration_of(const AxisSpec& axis, const Page& page, bool is_x,
+                           const std::string& where) {
+  std::vector<double> along;
+  for (const auto& point : axis.points) {
+    const auto at = page.to_page(point.pixel);
+    along.push_back(is_x ? at.x : at.y);
+  }
+  return calibrate(axis, along, fmt::format("{}: axes.{}", where, is_x ? "x" : "y"));
+}
+
+cv::Rect whole_pixels(const cv::Rect2d& box, cv::Size page) {
+  const cv::Rect rect(cv::Point(cvFloor(box.x), cvFloor(box.y)),
+                      cv::Point(cvCeil(box.br().x), cvCeil(box.br().y)));
+  return rect & cv::Rect({0, 0}, page);
+}
+
+/// The state of one digitisation.
+class Digitiser {
+ public:
+  Digitiser(const cv::Mat& picture, bool lossy, const Figure& figure, const std::string& where)
+      : figure_(figure), where_(where), page_(upright(picture, figure)) {
+    x_ = calibration_of(figure.x, page_, true, where);
+    y_ = calibration_of(figure.y, page_, false, where);
+    found_.angle = page_.angle();
+    find_area();
+    separate_inks(lossy);
+    find_left_out();
+  }
+
+  Digitised run() {
+    found_.series.resize(figure_.series.size());
+    for (std::size_t i = 0; i < figure_.series.size(); ++i) {
+      found_.series[i].name = figure_.series[i].name;
+      found_.series[i].kind = figure_.series[i].kind;
+    }
+    for (const auto& [ink, members] : members_) digitise_ink(ink, members);
+    for (auto& series : found_.series)
+      std::stable_sort(series.points.begin(), series.points.end(),
+                       [](const Point& a, const Point& b) { return a.x < b.x; });
+    found_.overlay = draw_overlay(page_, found_, figure_);
+    return std::move(found_);
+  }
+
+ private:
+  void find_area() {
+    const auto inside = box_of_points(figure_, page_);
+    const auto rules =
+        find_rules(ink_of_page(page_, inside), 0.4 * shorter_side(inside), thickest(inside));
+    const auto size = page_.image().size();
+    found_.plot_area =
+        figure_.plot_area ? page_.to_page(*figure_.plot_area) : plot_area(rules, inside, size);
+    area_ = whole_pixels(found_.plot_area, size);
+    if (area_.width < 16 || area_.height < 16)
+      throw InputError(
+          "{}: plot_area: expected at least 16 x 16 pixels inside the picture of {} x {}, "
+          "found {} x {}",
+          where_, size.width, size.height, area_.width, area_.height);
+  }
+
+  void separate_inks(bool lossy) {
+    std::vector<cv::Vec3f> asked;
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < figure_.series.size(); ++i) {
+      const auto& series = figure_.series[i];
+      std::size_t k = 0;
+      while (k < asked.size() && cv::norm(asked[k] - series.colour) > 20) ++k;
+      if (k == asked.size()) {
+        asked.push_back(series.colour);
+        names.push_back(series.name);
+      }
+      members_[static_cast<int>(k)].push_back(i);
+    }
+    colours_ = separate(page_.image(), area_, lossy, asked, names, where_);
+  }
+
+  void find_left_out() {
+    for (const auto& box : figure_.exclude)
+      found_.left_out.push_back(whole_pixels(page_.to_page(box), page_.image().size()));
+    const cv::Mat ink = ink_of_page(page_, area_);
+    const auto rules = find_rules(ink, std::max(12.0, 0.03 * area_.height), thickest(area_));
+    auto boxes = find_boxes(rules, area_);
+    cv::Mat text = cv::Mat::zeros(ink.size(), CV_32F);
+    for (std::size_t k = 0; k < colours_.inks.size(); ++k) {
+      const auto& c = colours_.inks[k];
+      const auto [least, most] = std::minmax({c[0], c[1], c[2]});
+      if (most - least < 40 && cv::norm(c - colours_.paper) > 150)
+        text += coverage_of(colours_, static_cast<int>(k));
+    }
+    const auto rows = find_legend_rows(text, ink, area_);
+    boxes.insert(boxes.end(), rows.begin(), rows.end());
+    for (const auto& box : boxes)
+      found_.problems.push_back(
+          fmt::format("taken for a legend or an inset and left out: [{}, {}, {}, {}]", box.x, box.y,
+                      box.width, box.height));
+    found_.left_out.insert(found_.left_out.end(), boxes.begin(), boxes.end());
+  }
+
+  InkMap map_of(int ink) const {
+    InkMap map{coverage_of(colours_, ink)(area_).clone(),
+               hidden_from(colours_, ink)(area_).clone()};
+    // Markers with an edge of another ink: what surrounds them all is not what hides them.
+    if (is_edged(map)) map.unknown.setTo(0);
+    for (const auto& box : found_.left_out) {
+      const cv::Rect there = box & area_;
+      if (there.empty()) continue;
+      map.coverage(there - area_.tl()).setTo(0);
+      map.unknown(there - area_.tl()).setTo(255);
+    }
+    clear_rules(map);
+    return map;
+  }
+
+  /// Whether most of the ink's outline touches another ink.
+  static bool is_edged(const InkMap& map) {
+    const cv::Mat ink = map.coverage > 0.5F;
+    cv::Mat core, near, rim;
+    cv::erode(ink, core, cv::Mat::ones(3, 3, CV_8U));
+    cv::dilate(map.unknown, near, cv::Mat::ones(3, 3, CV_8U));
+    cv::subtract(ink, core, rim);
+    return cv::countNonZero(rim & near) > 0.6 * cv::countNonZero(rim);
+  }
+
+  void digitise_ink(int ink, const std::vector<std::size_t>& members) {
+    auto map = map_of(ink);
+    std::vector<Template> templates;
+    std::vector<std::size_t> with_markers;
+    for (const auto i : members) {
+      if (figure_.series[i].kind != Kind::markers) continue;
+      const auto marker = learn(map, query_of(figure_.series[i], ink));
+      if (!marker)
+        throw InputError(
+            "{}: series \"{}\": expected markers of colour {}{} in the plot area, found none",
+            where_, figure_.series[i].name, hex_of(figure_.series[i].colour),
+            figure_.series[i].shape ? " and shape " + name_of(*figure_.series[i].shape) : "");
+      templates.push_back(*marker);
+      with_markers.push_back(i);
+    }
+    auto markers = find_markers(map, templates);
+    const bool with_line = std::any_of(members.begin(), members.end(), [&](std::size_t i) {
+      return figure_.series[i].kind == Kind::line;
+    });
+    for (std::size_t t = 0; t < templates.size(); ++t)
+      store_markers(map, templates[t], markers[t], figure_.series[with_markers[t]],
+                    found_.series[with_markers[t]], with_line);
+    for (const auto i : members)
+      if (figure_.series[i].kind == Kind::line) {
+        cover_markers(map, templates, markers);
+        store_line(map, all_points(markers), figure_.series[i], found_.series[i]);
+      }
+  }
+
+  MarkerQuery query_of(const SeriesSpec& series, int ink) const {
+    MarkerQuery query{series.shape, {}, {}};
+    if (!series.sample) return query;
+    const cv::Rect2d wanted = *series.sample;
+    const cv::Rect box = whole_pixels(page_.to_page(wanted), page_.image().size());
+    if (box.width < 4 || box.height < 4)
+      throw InputError(
+          "{}: series \"{}\": sample: expected at least 4 x 4 pixels inside the picture", where_,
+          series.name);
+    query.sample = coverage_of(colours_, ink)(box).clone();
+    if (cv::sum(query.sample)[0] < 4)
+      throw InputError(
+          "{}: series \"{}\": sample: expected a marker of colour {} in it, found none", where_,
+          series.name, hex_of(series.colour));
+    if (series.reference)
+      query.reference = page_.to_page(*series.reference) - cv::Point2d(box.tl());
+    return query;
+  }
+
+  Point to_point(cv::Point2d at, double u_x, double u_y) const {
+    Point point;
+    point.pixel = at;
+    point.u_pixel[0] = u_x;
+    point.u_pixel[1] = u_y;
+    point.x = x_.value(at.x);
+    point.y = y_.value(at.y);
+    point.x_u = x_.uncertainty(at.x, u_x);
+    point.y_u = y_.uncertainty(at.y, u_y);
+    return point;
+  }
+
+  void store_markers(const InkMap& map, const Template& marker, std::vector<Marker>& markers,
+                     const SeriesSpec& series, FoundSeries& found, bool with_line) {
+    if (markers.empty())
+      throw InputError(
+          "{}: series \"{}\": expected markers of colour {} in the plot area, found none", where_,
+          series.name, hex_of(series.colour));
+    complete(markers, page_.reduction(), page_.angle() != 0, colours_.lossy);
+    found.shape = name_of(marker.shape);
+    const cv::Point2d corner = area_.tl();
+    for (const auto& one : markers) {
+      auto point = to_point(one.at + corner, one.u[0], one.u[1]);
+      if (series.error_bars) {
+        const auto bar = find_error_bar(map, marker, one.at, with_line);
+        point.bar_pixel[0] = bar.lower + corner.y;
+        point.bar_pixel[1] = bar.upper + corner.y;
+        for (const double end : point.bar_pixel)
+          if (!std::isnan(end)) {
+            const double value = y_.value(end);
+            (value < point.y ? point.lo : point.hi) = value;
+          }
+      }
+      found.points.push_back(point);
+    }
+  }
+
+  void store_line(const InkMap& map, const std::vector<LinePoint>& through,
+                  const SeriesSpec& series, FoundSeries& found) {
+    InkMap wider = map;
+    cv::dilate(map.unknown, wider.unknown, cv::Mat::ones(3, 3, CV_8U));
+    auto line = trace_line(wider, through, series.points);
+    if (line.points.size() < 2)
+      throw InputError(
+          "{}: series \"{}\": expected a line of colour {} in the plot area, found none", where_,
+          series.name, hex_of(series.colour));
+    if (line.explained < 0.7)
+      found_.problems.push_back(
+          fmt::format("series \"{}\": the line explains {:.0f} % of the ink of its colour: a "
+                      "second line, or one with several places for one abscissa",
+                      series.name, 100 * line.explained));
+    complete(line.points, stroke_width(map.coverage), colours_.lossy);
+    for (const auto& one : line.points)
+      found.points.push_back(to_point(one.at + cv::Point2d(area_.tl()), one.u, one.u));
+  }
+
+  /// A line goes through the markers of its ink.
+  static std::vector<LinePoint> all_points(const std::vector<std::vector<Marker>>& markers) {
+    std::vector<LinePoint> points;
+    for (const auto& series : markers)
+      for (const auto& one : series) points.push_back({one.at, std::max(one.u[0], one.u[1])});
+    return points;
+  }
+
+  /// Under a marker nothing is known of the line.
+  static void cover_markers(InkMap& map, const std::vector<Template>& templates,
+                            const std::vector<std::vector<Marker>>& markers) {
+    for (std::size_t t = 0; t < templates.size(); ++t)
+      for (const auto& one : markers[t]) {
+        const cv::Size size = templates[t].inside.size();
+        const cv::Rect wanted(cvRound(one.fit.origin.x - size.width / 2.0),
+                              cvRound(one.fit.origin.y - size.height / 2.0), size.width,
+                              size.height);
+        const cv::Rect there = wanted & cv::Rect(0, 0, map.unknown.cols, map.unknown.rows);
+        if (!there.empty()) map.unknown(there).setTo(255, templates[t].inside(there - wanted.tl()));
+      }
+  }
+
+  const Figure& figure_;
+  const std::string& where_;
+  Page page_;
+  Calibration x_, y_;
+  cv::Rect area_;
+  Colours colours_;
+  std::map<int, std::vector<std::size_t>> members_;  ///< the series of an ink
+  Digitised found_;
+};
+
+}  // namespace
+
+Digitised digitise(const cv::Mat& picture, bool lossy, const Figure& figure,
+                   const std::string& where) {
+  return Digitiser(picture, lossy, figure, where).run();
+}
+
+}  // namespace bedscope::digitise

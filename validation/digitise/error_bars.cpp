@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "validation/digitise/error_bars.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace bedscope::digitise {
+namespace {
+
+struct Looker {
+  const InkMap& map;
+  double coverage(int y, int x) const {
+    return y < 0 || x < 0 || y >= map.coverage.rows || x >= map.coverage.cols
+               ? 0
+               : map.coverage.at<float>(y, x);
+  }
+  bool unknown(int y, int x) const {
+    return y >= 0 && x >= 0 && y < map.coverage.rows && x < map.coverage.cols &&
+           map.unknown.at<uchar>(y, x) != 0;
+  }
+  /// The most ink of a row within a pixel of the bar's column.
+  double on_bar(int y, int x) const {
+    return std::max({coverage(y, x - 1), coverage(y, x), coverage(y, x + 1)});
+  }
+  /// Middle of the ink of a row near x.
+  double centre(int y, int x) const {
+    double mass = 0, moment = 0;
+    for (int i = x - 3; i <= x + 3; ++i) {
+      mass += coverage(y, i);
+      moment += coverage(y, i) * i;
+    }
+    return mass > 0 ? moment / mass : x;
+  }
+  /// Length of the unbroken ink of a row around x.
+  int breadth(int y, int x) const {
+    int left = x, right = x;
+    while (coverage(y, left - 1) > 0.3) --left;
+    while (coverage(y, right + 1) > 0.3) ++right;
+    return on_bar(y, x) > 0.3 ? right - left + 1 : 0;
+  }
+};
+
+/// The end of a stroke that leaves the marker's edge row `start` in direction `step` (+1 down).
+double end_of(const Looker& look, int x, int start, int step, double marker_width,
+              bool cap_needed) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  std::vector<int> breadths;
+  int y = start, last = start - step, broken = 0;
+  for (; y >= 0 && y < look.map.coverage.rows; y += step) {
+    if (look.unknown(y, x)) {
+      if (++broken > 12) break;
+      continue;
+    }
+    if (look.on_bar(y, x) < 0.3) {
+      if (broken == 0 || look.on_bar(y + step, x) < 0.3) break;
+    }
+    broken = 0;
+    last = y;
+    breadths.push_back(look.breadth(y, x));
+  }
+  const int length = std::abs(last - start) + 1;
+  if (breadths.empty()) return none;
+  auto sorted = breadths;
+  std::sort(sorted.begin(), sorted.end());
+  const int thin = sorted[sorted.size() / 4];
+  // A bar is thinner than the marker, and straight: it stays so over most of its length.
+  if (thin > std::max(2.0, 0.55 * marker_width)) return none;
+  const auto wide = [&](int b) { return b >= 2 * thin + 2; };
+  // The cap: the wide rows at the end. Its middle is the value.
+  int cap = 0;
+  while (cap < static_cast<int>(breadths.size()) && wide(breadths[breadths.size() - 1 - cap]))
+    ++cap;
+  if (cap > 0 && cap <= 3 * thin + 2 && (cap < length || breadths.back() < marker_width)) {
+    double mass = 0, moment = 0;
+    for (int i = -1; i <= cap; ++i) {
+      const int row = last - step * (cap - 1) + step * i;
+      double across = 0;
+      for (int dx = thin + 1; dx <= thin + 2; ++dx)
+        across += look.coverage(row, x - dx) + look.coverage(row, x + dx);
+      mass += across;
+      moment += across * (row + 0.5);
+    }
+    if (mass > 0) return moment / mass;
+  }
+  // A marker's own shoulder is no bar, nor is a steep line.
+  if (cap_needed || std::abs(look.centre(last, x) - look.centre(start, x)) > 1.2) return none;
+  if (length < 0.12 * marker_width + 2) return none;
+  const double at_last = std::min(1.0, look.on_bar(last, x)),
+               beyond = std::min(1.0, look.on_bar(last + step, x));
+  const double edge = at_last < 0.9 ? at_last - 1 : beyond;  // how far the ink reaches past the row
+  return (step > 0 ? last + 1 : last) + step * edge;
+}
+
+}  // namespace
+
+ErrorBar find_error_bar(const InkMap& map, const Template& marker, cv::Point2d at, bool with_line) {
+  const Looker look{map};
+  const cv::Point2d middle = at - marker.reference;
+  const int x = cvFloor(at.x);
+  const int above = cvFloor(middle.y - marker.box.height / 2 - 1.5);
+  const int below = cvFloor(middle.y + marker.box.height / 2 + 1.5);
+  return {end_of(look, x, below, +1, marker.box.width, with_line),
+          end_of(look, x, above, -1, marker.box.width, with_line)};
+}
+
+}  // namespace bedscope::digitise

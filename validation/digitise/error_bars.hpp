@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Vertical error bars: thin strokes that start at a marker, with or without caps.
+#pragma once
+
+#include "validation/digitise/markers.hpp"
+
+namespace bedscope::digitise {
+
+struct ErrorBar {
+  double lower = 0,
+         upper = 0;  ///< rows of the ends (lower: the larger row); NaN where none is seen
+};
+
+/// The bar of a marker at `at`, whose template is `marker`. `with_line`: the ink also draws a line
+/// through the markers, so that only a stroke with a cap is a bar.
+ErrorBar find_error_bar(const InkMap& map, const Template& marker, cv::Point2d at, bool with_line);
+
+}  // namespace bedscope::digitise

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "validation/digitise/legend.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+namespace bedscope::digitise {
+namespace {
+
+struct Word {
+  std::vector<cv::Rect> glyphs;
+  cv::Rect box;
+};
+
+bool same_row(const cv::Rect& a, const cv::Rect& b) {
+  const int overlap = std::min(a.br().y, b.br().y) - std::max(a.y, b.y);
+  return 2 * overlap >= std::min(a.height, b.height);
+}
+
+/// Pieces of ink of a letter's size.
+std::vector<cv::Rect> glyphs_of(const cv::Mat& mask, cv::Point offset) {
+  cv::Mat labels, stats, centres;
+  const int n = cv::connectedComponentsWithStats(mask, labels, stats, centres, 8);
+  const int tallest = std::max(16, std::min(mask.cols, mask.rows) / 12);
+  std::vector<cv::Rect> glyphs;
+  for (int i = 1; i < n; ++i) {
+    const cv::Rect box(stats.at<int>(i, cv::CC_STAT_LEFT), stats.at<int>(i, cv::CC_STAT_TOP),
+                       stats.at<int>(i, cv::CC_STAT_WIDTH), stats.at<int>(i, cv::CC_STAT_HEIGHT));
+    if (box.height < 5 || box.height > tallest || box.width > 3 * box.height) continue;
+    glyphs.push_back(box + offset);
+  }
+  std::sort(glyphs.begin(), glyphs.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
+  return glyphs;
+}
+
+/// Letters next to one another, unlike in size: markers in a row are alike.
+std::vector<Word> words_of(const std::vector<cv::Rect>& glyphs) {
+  std::vector<Word> words;
+  for (const auto& glyph : glyphs) {
+    Word* home = nullptr;
+    for (auto& word : words) {
+      const int gap = glyph.x - word.box.br().x;
+      const int height = std::max(glyph.height, word.glyphs.back().height);
+      if (same_row(glyph, word.box) && gap <= 0.4 * height && gap >= -height &&
+          (home == nullptr || word.box.br().x > home->box.br().x))
+        home = &word;
+    }
+    if (home == nullptr) {
+      words.push_back({{glyph}, glyph});
+    } else {
+      home->glyphs.push_back(glyph);
+      home->box |= glyph;
+    }
+  }
+  std::erase_if(words, [](const Word& word) {
+    if (word.glyphs.size() < 2) return true;
+    const auto& first = word.glyphs.front();
+    return std::all_of(word.glyphs.begin(), word.glyphs.end(), [&](const cv::Rect& glyph) {
+      return std::abs(glyph.width - first.width) <= std::max(1.0, 0.12 * first.width) &&
+             std::abs(glyph.height - first.height) <= std::max(1.0, 0.08 * first.height);
+    });
+  });
+  return words;
+}
+
+/// The sample beside a row of text: what lies whole in a strip at that side, at its height.
+std::optional<cv::Rect> sample_beside(const cv::Mat& mask, const cv::Rect& text, int height,
+                                      bool left, const cv::Rect& area) {
+  const int near = cvRound(0.25 * height), far = cvRound(6.5 * height);
+  const int top = text.y + text.height / 2 - cvRound(1.05 * height);
+  const cv::Rect strip = cv::Rect(left ? text.x - far : text.br().x + near, top, far - near,
+                                  2 * cvRound(1.05 * height)) &
+                         area;
+  if (strip.width < height || strip.height < height) return std::nullopt;
+  cv::Mat labels, stats, centres;
+  const int n = cv::connectedComponentsWithStats(mask(strip), labels, stats, centres, 8);
+  std::vector<cv::Rect> parts;
+  for (int i = 1; i < n; ++i) {
+    const cv::Rect box(stats.at<int>(i, cv::CC_STAT_LEFT), stats.at<int>(i, cv::CC_STAT_TOP),
+                       stats.at<int>(i, cv::CC_STAT_WIDTH), stats.at<int>(i, cv::CC_STAT_HEIGHT));
+    if (std::max(box.width, box.height) < 3) continue;
+    const bool inside =
+        box.y > 0 && box.br().y < strip.height && (left ? box.x > 0 : box.br().x < strip.width);
+    const double off = box.y + box.height / 2.0 + strip.y - text.y - text.height / 2.0;
+    if (inside && std::abs(off) < 0.4 * height) parts.push_back(box);
+  }
+  // The nearest part, and what is close to it: more samples, dashes.
+  std::sort(parts.begin(), parts.end(), [left](const cv::Rect& a, const cv::Rect& b) {
+    return left ? a.br().x > b.br().x : a.x < b.x;
+  });
+  cv::Rect sample;
+  for (const auto& part : parts)
+    if (sample.empty() || std::max(part.x - sample.br().x, sample.x - part.br().x) < 0.8 * height)
+      sample |= part;
+  if (sample.empty()) return std::nullopt;
+  const int gap = left ? strip.width - sample.br().x : sample.x;
+  if (gap > 4.2 * height) return std::nullopt;
+  return sample + strip.tl();
+}
+
+}  // namespace
+
+std::vector<cv::Rect> find_boxes(const Rules& rules, const cv::Rect& area) {
+  std::vector<cv::Rect> boxes;
+  const double slack = std::max(4.0, 0.02 * std::min(area.width, area.height));
+  const auto near = [&](double a, double b) { return std::abs(a - b) < slack; };
+  const auto joins = [&](const Rule& rule, double low, double high) {
+    return rule.from < low + slack && rule.to > high - slack && rule.from > low - 2 * slack &&
+           rule.to < high + 2 * slack;
+  };
+  for (const auto& top : rules.rows)
+    for (const auto& bottom : rules.rows) {
+      if (bottom.at - top.at < 0.03 * area.height || bottom.at - top.at > 0.75 * area.height)
+        continue;
+      if (!near(top.from, bottom.from) || !near(top.to, bottom.to)) continue;
+      if (top.length() < 0.06 * area.width || top.length() > 0.75 * area.width) continue;
+      const auto side = [&](double x) {
+        return std::any_of(rules.columns.begin(), rules.columns.end(), [&](const Rule& rule) {
+          return near(rule.at, x) && joins(rule, top.at, bottom.at);
+        });
+      };
+      if (!side(top.from) || !side(top.to)) continue;
+      const cv::Rect box(cvFloor(top.from - 3), cvFloor(top.at - 3), cvCeil(top.length() + 6),
+                         cvCeil(bottom.at - top.at + 6));
+      if ((box & area).area() > 0.9 * box.area()) boxes.push_back(box & area);
+    }
+  return boxes;
+}
+
+std::vector<cv::Rect> find_legend_rows(const cv::Mat& text, const cv::Mat& ink,
+                                       const cv::Rect& area) {
+  const cv::Mat letters = text(area) > 0.4F, any = ink > 0.25F;
+  std::vector<cv::Rect> rows;
+  for (const auto& word : words_of(glyphs_of(letters, area.tl()))) {
+    int height = 0;
+    for (const auto& glyph : word.glyphs) height = std::max(height, glyph.height);
+    if (word.box.width < 0.8 * height) continue;
+    for (const bool left : {true, false})
+      if (const auto sample = sample_beside(any, word.box, height, left, area)) {
+        const int margin = std::max(2, height / 4);
+        const cv::Rect both = word.box | *sample;
+        rows.push_back(cv::Rect(both.x - margin, both.y - margin, both.width + 2 * margin,
+                                both.height + 2 * margin) &
+                       area);
+        break;
+      }
+  }
+  return rows;
+}
+
+}  // namespace bedscope::digitise

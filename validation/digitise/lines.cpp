@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "validation/digitise/lines.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "validation/digitise/markers.hpp"
+
+namespace bedscope::digitise {
+namespace {
+
+/// Ink without a break in one column.
+struct Run {
+  int column = 0;
+  double top = 0, bottom = 0, middle = 0, mass = 0;
+  bool cut = false;  ///< an unknown pixel is beside it: its middle is not the line's
+  double u = 0;      ///< of a marker that stands for the line
+  // The best way that ends here:
+  double worth = 0, slope = 0;
+  int before = -1;
+};
+
+struct Path {
+  std::vector<Run> runs;  ///< one a column at most, by column
+  double mass = 0;
+};
+
+std::vector<Run> runs_of(const InkMap& map, const std::vector<LinePoint>& through, int column) {
+  std::vector<Run> runs;
+  for (const auto& marker : through)
+    if (cvFloor(marker.at.x) == column) {
+      Run run;
+      run.column = column;
+      run.middle = marker.at.y;
+      run.top = marker.at.y - 0.5;
+      run.bottom = marker.at.y + 0.5;
+      run.u = marker.u;
+      runs.push_back(run);
+    }
+  constexpr float seen = 0.22F;
+  const int rows = map.coverage.rows;
+  for (int y = 0; y < rows; ++y) {
+    if (map.coverage.at<float>(y, column) < seen || map.unknown.at<uchar>(y, column) != 0) continue;
+    int end = y;
+    while (end < rows && map.coverage.at<float>(end, column) >= seen &&
+           map.unknown.at<uchar>(end, column) == 0)
+      ++end;
+    Run run;
+    run.column = column;
+    const auto unknown = [&](int row) {
+      return row < 0 || row >= rows || map.unknown.at<uchar>(row, column) != 0;
+    };
+    run.cut = unknown(y - 1) || unknown(end);
+    // The faint rows at both edges belong to it.
+    double moment = 0;
+    for (int row = std::max(0, y - 1); row < std::min(rows, end + 1); ++row) {
+      if (unknown(row)) continue;
+      const double share = map.coverage.at<float>(row, column);
+      run.mass += share;
+      moment += share * (row + 0.5);
+    }
+    run.top = y;
+    run.bottom = end;
+    run.middle = moment / run.mass;
+    runs.push_back(run);
+    y = end;
+  }
+  return runs;
+}
+
+/// Slope of the way that ends in `run`, from some columns back.
+double slope_of(const std::vector<Run>& all, int run, int back) {
+  int first = run;
+  while (all[first].before >= 0 && all[run].column - all[first].column < back)
+    first = all[first].before;
+  const int columns = all[run].column - all[first].column;
+  return columns > 0 ? (all[run].middle - all[first].middle) / columns : 0;
+}
+
+/// The way from left to right with the most columns of ink, less what its gaps and jumps cost
+/// (Viterbi 1967). `taken` columns are not entered.
+Path best_path(const InkMap& map, const std::vector<LinePoint>& through,
+               const std::vector<bool>& taken, double stroke) {
+  const int width = map.coverage.cols;
+  const int longest_gap = std::max(cvRound(12 * stroke), width / 25);
+  std::vector<Run> all;
+  std::vector<int> first_of(width + 1, 0);
+  int best = -1;
+  for (int column = 0; column < width; ++column) {
+    first_of[column] = static_cast<int>(all.size());
+    if (taken[column]) continue;
+    for (auto run : runs_of(map, through, column)) {
+      const double reward = run.u > 0 ? 3.0 : run.cut ? 0.5 : 1.0;
+      run.worth = reward;
+      for (int back = 1; back <= longest_gap && column - back >= 0; ++back) {
+        if (taken[column - back]) break;
+        const int from = first_of[column - back], to = first_of[column - back + 1];
+        for (int i = from; i < to; ++i) {
+          const auto& other = all[i];
+          const double apart = std::max({0.0, run.top - other.bottom, other.top - run.bottom});
+          double cost;
+          if (back == 1) {
+            cost = apart <= 0 ? 0 : 0.6 * apart;
+          } else {
+            const double off = std::abs(run.middle - other.middle - other.slope * back);
+            const int row =
+                std::clamp(cvRound((run.middle + other.middle) / 2), 0, map.coverage.rows - 1);
+            const bool hidden = map.unknown.at<uchar>(row, column - back / 2) != 0;
+            cost = (hidden ? 0.05 : 0.25) * back +
+                   0.25 * std::max(0.0, off - 0.15 * back - stroke) + 0.05 * off;
+          }
+          // A change of the run's length is a branch or a touching neighbour.
+          if (run.u == 0 && other.u == 0) cost += 0.02 * std::abs(run.mass - other.mass);
+          if (other.worth - cost + reward > run.worth) {
+            run.worth = other.worth - cost + reward;
+            run.before = i;
+          }
+        }
+      }
+      all.push_back(run);
+      const int last = static_cast<int>(all.size()) - 1;
+      all[last].slope = slope_of(all, last, std::max(6, cvRound(4 * stroke)));
+      if (best < 0 || all[last].worth > all[best].worth) best = last;
+    }
+  }
+  first_of[width] = static_cast<int>(all.size());
+  Path path;
+  for (int i = best; i >= 0; i = all[i].before) {
+    path.runs.push_back(all[i]);
+    path.mass += all[i].mass;
+  }
+  std::reverse(path.runs.begin(), path.runs.end());
+  return path;
+}
+
+/// The best path, then those in the columns it left free (the line was hidden for long), by column.
+Path whole_path(const InkMap& map, const std::vector<LinePoint>& through) {
+  const int width = map.coverage.cols;
+  const double stroke = stroke_width(map.coverage);
+  std::vector<bool> taken(width);
+  Path whole;
+  for (int part = 0; part < 8; ++part) {
+    const auto path = best_path(map, through, taken, stroke);
+    if (path.runs.size() < 6) break;
+    const double least = part == 0 ? 0 : std::max(15.0, 0.02 * width);
+    if (static_cast<double>(path.runs.size()) < least) break;
+    for (int x = path.runs.front().column; x <= path.runs.back().column; ++x) taken[x] = true;
+    whole.mass += path.mass;
+    whole.runs.insert(whole.runs.end(), path.runs.begin(), path.runs.end());
+  }
+  std::sort(whole.runs.begin(), whole.runs.end(),
+            [](const Run& a, const Run& b) { return a.column < b.column; });
+  return whole;
+}
+
+/// A parabola through the runs around `centre` that are not cut: the line's place in its column and
+/// how far the runs are off it, across the line.
+std::optional<LinePoint> local_place(const std::vector<Run>& runs, std::size_t centre,
+                                     double stroke) {
+  const int reach = std::max(2, cvRound(stroke));
+  if (runs[centre].u > 0)
+    return LinePoint{{runs[centre].column + 0.5, runs[centre].middle}, runs[centre].u};
+  cv::Matx33d normal = cv::Matx33d::zeros();
+  cv::Vec3d right(0, 0, 0);
+  std::vector<std::pair<double, double>> used;
+  const auto add = [&](const Run& run) {
+    if (run.cut || run.u > 0) return;
+    const double t = run.column - runs[centre].column;
+    const cv::Vec3d row(1, t, t * t);
+    normal += row * row.t();
+    right += row * run.middle;
+    used.emplace_back(t, run.middle);
+  };
+  for (std::size_t i = centre; i < runs.size() && runs[i].column - runs[centre].column <= reach;
+       ++i)
+    add(runs[i]);
+  for (std::size_t i = centre; i-- > 0 && runs[centre].column - runs[i].column <= reach;)
+    add(runs[i]);
+  const double x = runs[centre].column + 0.5;
+  if (used.size() < 4) return LinePoint{{x, runs[centre].middle}, 0.35};
+  const cv::Vec3d c = normal.inv(cv::DECOMP_SVD) * right;
+  double squares = 0;
+  for (const auto& [t, y] : used) squares += std::pow(y - c[0] - c[1] * t - c[2] * t * t, 2);
+  const double rms = std::sqrt(squares / std::max(1.0, static_cast<double>(used.size()) - 3));
+  const double cosine = 1 / std::hypot(1, c[1]);
+  return LinePoint{{x, c[0]}, rms * cosine / std::sqrt(static_cast<double>(used.size()) / 3)};
+}
+
+TracedLine sample(const Path& path, double stroke, int points) {
+  TracedLine line;
+  if (path.runs.empty()) return line;
+  const double from = path.runs.front().column, to = path.runs.back().column;
+  const double step = points > 1 ? (to - from) / (points - 1) : to - from + 1;
+  std::size_t next = 0;
+  int last_column = -1;
+  for (int i = 0; i < points; ++i) {
+    const double wanted = from + i * step;
+    while (next + 1 < path.runs.size() && std::abs(path.runs[next + 1].column - wanted) <=
+                                              std::abs(path.runs[next].column - wanted))
+      ++next;
+    // The nearest run that is whole.
+    std::size_t chosen = next;
+    double nearest = 1e9;
+    for (std::size_t j = next > 12 ? next - 12 : 0; j < std::min(path.runs.size(), next + 13); ++j)
+      if (const double away = std::abs(path.runs[j].column - wanted);
+          !path.runs[j].cut && away < nearest) {
+        nearest = away;
+        chosen = j;
+      }
+    if (nearest > std::max(0.5 * step, 1.0) || path.runs[chosen].column == last_column) continue;
+    last_column = path.runs[chosen].column;
+    if (const auto place = local_place(path.runs, chosen, stroke)) line.points.push_back(*place);
+  }
+  return line;
+}
+
+}  // namespace
+
+TracedLine trace_line(const InkMap& map, const std::vector<LinePoint>& through, int points) {
+  cv::Mat known = map.coverage.clone();
+  known.setTo(0, map.unknown);
+  const double all = cv::sum(known)[0], stroke = stroke_width(known);
+  const InkMap turned{map.coverage.t(), map.unknown.t()};
+  auto turned_through = through;
+  for (auto& point : turned_through) std::swap(point.at.x, point.at.y);
+  const auto by_column = whole_path(map, through), by_row = whole_path(turned, turned_through);
+  const bool along_x = by_column.mass >= by_row.mass - 0.1 * all;
+  auto line = sample(along_x ? by_column : by_row, stroke, points);
+  line.along_x = along_x;
+  line.explained = all > 0 ? (along_x ? by_column : by_row).mass / all : 0;
+  if (!along_x)
+    for (auto& point : line.points) std::swap(point.at.x, point.at.y);
+  return line;
+}
+
+}  // namespace bedscope::digitise

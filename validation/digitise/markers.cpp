@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "validation/digitise/markers.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+namespace bedscope::digitise {
+namespace {
+
+constexpr double accepted = 0.6;  // of a fit's score
+constexpr double least_known = 0.35;
+
+/// Where a template may lie, coarsely: peaks of the correlation at a size of a dozen pixels.
+std::vector<cv::Point2d> guesses(const InkMap& map, const Template& marker) {
+  const double scale =
+      std::min(1.0, 14 / std::max(4.0, std::max(marker.box.width, marker.box.height)));
+  cv::Mat coverage, drawn;
+  cv::resize(map.coverage, coverage, {}, scale, scale, cv::INTER_AREA);
+  cv::resize(marker.ink, drawn, {}, scale, scale, cv::INTER_AREA);
+  std::vector<cv::Point2d> found;
+  if (drawn.cols >= coverage.cols || drawn.rows >= coverage.rows) return found;
+  // Markers reach over the edge of the plot.
+  const int border = drawn.cols;
+  cv::copyMakeBorder(coverage, coverage, border, border, border, border, cv::BORDER_CONSTANT,
+                     cv::Scalar(0));
+  cv::Mat score, highest;
+  cv::matchTemplate(coverage, drawn, score, cv::TM_CCOEFF_NORMED);
+  cv::dilate(score, highest, cv::Mat::ones(3, 3, CV_8U));
+  const double fx = static_cast<double>(map.coverage.cols) / (coverage.cols - 2 * border);
+  const double fy = static_cast<double>(map.coverage.rows) / (coverage.rows - 2 * border);
+  for (int y = 0; y < score.rows; ++y)
+    for (int x = 0; x < score.cols; ++x) {
+      const float s = score.at<float>(y, x);
+      if (s > 0.35F && s < 1.01F && s >= highest.at<float>(y, x))
+        found.emplace_back((x - border + drawn.cols / 2.0) * fx,
+                           (y - border + drawn.rows / 2.0) * fy);
+    }
+  return found;
+}
+
+struct Candidate {
+  std::size_t which;
+  Fit fit;
+};
+
+double worth(const Fit& fit) { return fit.score * std::sqrt(fit.known); }
+
+bool good(const Fit& fit) {
+  return fit.score > accepted && fit.known > least_known && fit.least_part > 0.45;
+}
+
+/// What the template explains is not to be explained again.
+void cover(InkMap& map, const Template& marker, cv::Point2d origin) {
+  const cv::Size size = marker.ink.size();
+  const cv::Point middle(cvFloor(origin.x), cvFloor(origin.y));
+  const cv::Rect wanted(middle.x - size.width / 2, middle.y - size.height / 2, size.width,
+                        size.height);
+  const cv::Rect there = wanted & cv::Rect(0, 0, map.coverage.cols, map.coverage.rows);
+  if (there.empty()) return;
+  const cv::Mat ink = laid(marker, origin, middle)(there - wanted.tl());
+  map.unknown(there).setTo(255, ink > 0.15F);
+  map.coverage(there).setTo(0, ink > 0.15F);
+}
+
+}  // namespace
+
+std::vector<std::vector<Marker>> find_markers(const InkMap& map,
+                                              const std::vector<Template>& templates) {
+  std::vector<std::vector<Marker>> found(templates.size());
+  std::vector<Candidate> candidates;
+  for (std::size_t t = 0; t < templates.size(); ++t)
+    for (const auto guess : guesses(map, templates[t])) {
+      const auto here = fit(templates[t], map, guess);
+      if (good(here)) candidates.push_back({t, here});
+    }
+  std::sort(candidates.begin(), candidates.end(),
+            [](const auto& a, const auto& b) { return worth(a.fit) > worth(b.fit); });
+  InkMap left{map.coverage.clone(), map.unknown.clone()};
+  for (const auto& candidate : candidates) {
+    const auto& marker = templates[candidate.which];
+    const double size = std::max(marker.box.width, marker.box.height);
+    bool taken = false;
+    for (std::size_t t = 0; t < templates.size(); ++t)
+      for (const auto& other : found[t])
+        taken = taken || cv::norm(other.fit.origin - candidate.fit.origin) < 0.25 * size;
+    if (taken) continue;
+    // Again on what is left; alone, nothing has changed for it.
+    const auto again = fit(marker, left, candidate.fit.origin);
+    if (!good(again) || cv::norm(again.origin - candidate.fit.origin) > 0.3 * size) continue;
+    Marker one;
+    one.fit = again;
+    one.at = again.origin + marker.reference;
+    for (int axis = 0; axis < 2; ++axis)
+      one.u[axis] = std::hypot(again.u[axis], marker.reference_u[axis]);
+    found[candidate.which].push_back(one);
+    cover(left, marker, again.origin);
+  }
+  return found;
+}
+
+}  // namespace bedscope::digitise

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where the markers of a plot are.
+#pragma once
+
+#include <vector>
+
+#include "validation/digitise/template.hpp"
+
+namespace bedscope::digitise {
+
+/// What to look for in one ink.
+struct MarkerQuery {
+  std::optional<Shape> shape;
+  cv::Mat sample;                        ///< coverage of a marker the user showed; may be empty
+  std::optional<cv::Point2d> reference;  ///< its reference point in the sample [px]
+};
+
+struct Marker {
+  Fit fit;
+  cv::Point2d at;        ///< the data point
+  double u[2] = {0, 0};  ///< [px]
+};
+
+/// The template that the ink shows for a query: from the user's sample; from markers that stand
+/// alone; from filled markers on thinner lines; else drawn shapes of all sizes are tried.
+/// Nothing where none of these is found.
+std::optional<Template> learn(const InkMap& map, const MarkerQuery& query);
+
+/// All markers of some templates in one ink: each place goes to the template that explains it best,
+/// the best place first, and what it explains is not explained twice. One list a template.
+std::vector<std::vector<Marker>> find_markers(const InkMap& map,
+                                              const std::vector<Template>& templates);
+
+/// The commonest thickness of strokes in the map [px].
+double stroke_width(const cv::Mat& coverage);
+
+}  // namespace bedscope::digitise

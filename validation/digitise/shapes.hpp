@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The shapes of markers: their names, and their pictures as a plotting program draws them.
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace bedscope::digitise {
+
+enum class Outline {
+  circle,
+  square,
+  diamond,
+  triangle,
+  triangle_down,
+  triangle_left,
+  triangle_right,
+  pentagon,
+  hexagon,
+  star,
+  plus,
+  x,
+  asterisk,
+  cross /* plus or x */
+};
+enum class Fill { any, filled, open };
+
+struct Shape {
+  Outline outline = Outline::circle;
+  Fill fill = Fill::any;
+};
+
+/// "circle", "open triangle", "triangle_down", "filled square", "o", "^", ...; nothing where
+/// unknown.
+std::optional<Shape> shape_of(std::string_view name);
+std::string name_of(const Shape& shape);
+/// Every name of an outline, for messages.
+std::vector<std::string_view> outline_names();
+
+bool is_triangle(Outline outline);
+bool is_strokes(Outline outline);  ///< plus, x, asterisk: no inside
+
+/// The outline (no cross) scaled to a width and height in pixels, filled or as a stroke whose outer
+/// edge touches the box, drawn with anti-aliasing `off` the middle of an image of `size` pixels.
+/// Returns coverage 0 to 1, CV_32F.
+cv::Mat draw_shape(const Shape& shape, cv::Size2d box, double stroke, cv::Size size,
+                   cv::Point2d off = {0, 0});
+
+/// Where the data point is, from the middle of the box of a marker of this outline, as a fraction
+/// of the box's width and height (y down). Plotting programs differ for triangles: those as wide as
+/// high (matplotlib) stand with the middle of their path on the point, flatter ones (gnuplot,
+/// MATLAB) with their centre of mass. `uncertain` is the standard uncertainty of that choice, same
+/// unit.
+struct Reference {
+  cv::Point2d at;
+  double uncertain = 0;
+};
+Reference reference_of(Outline outline, cv::Size2d box);
+
+}  // namespace bedscope::digitise

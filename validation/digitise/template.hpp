@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The picture of one marker, and how it is laid over the page with a precision below a pixel.
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "validation/digitise/shapes.hpp"
+
+namespace bedscope::digitise {
+
+/// What is looked at: how much of each pixel the ink covers, and which pixels tell nothing (another
+/// ink lies over them, a rule was taken away there, outside of the plot).
+struct InkMap {
+  cv::Mat coverage;  ///< CV_32F, 0 to 1
+  cv::Mat unknown;   ///< CV_8U, not 0: nothing known
+};
+
+struct Template {
+  cv::Mat ink;     ///< CV_32F with a margin of paper; the middle of the image is its origin
+  cv::Mat inside;  ///< CV_8U: the marker with its inside, where extra ink counts in full
+  Shape shape;
+  cv::Size2d box;         ///< of the ink [px]
+  cv::Point2d reference;  ///< the data point, from the origin
+  double reference_u[2] = {0, 0};
+};
+
+/// Where a template lies best.
+struct Fit {
+  cv::Point2d origin;     ///< of the template, on the page
+  double u[2] = {0, 0};   ///< standard uncertainties from what the fit leaves
+  double score = -1;      ///< 1 where all is explained, 0 where it is no better than paper
+  double known = 0;       ///< share of the template's ink on known pixels
+  double least_part = 0;  ///< how much of the ink of its worst eighth (by direction) is there
+};
+
+/// The outline and fill that resemble `ink` best, of `among`, with their correlation.
+std::pair<Shape, double> recognise(const cv::Mat& ink, const std::vector<Shape>& among);
+
+/// All shapes that a bare series may have; of one outline or fill where `asked` says so.
+std::vector<Shape> candidates(const std::optional<Shape>& asked);
+
+/// A template from a picture of a marker, its reference point by symmetry and by the rules of
+/// reference_of().
+Template make_template(const cv::Mat& ink, const Shape& shape);
+
+/// Least squares over the shift from the best whole pixel near `near`, with weights that leave out
+/// what does not belong to the marker (lines through it, error bars, neighbours).
+Fit fit(const Template& marker, const InkMap& map, cv::Point2d near);
+
+/// The part of `image` of the size of `like` whose middle is at `origin` (sub-pixel, cubic), with
+/// `outside` beyond the edges.
+cv::Mat window(const cv::Mat& image, cv::Point2d origin, cv::Size size, double outside);
+
+/// The template's ink as it falls on the pixels of a window of the page whose middle pixel is
+/// `middle`.
+cv::Mat laid(const Template& marker, cv::Point2d origin, cv::Point middle);
+
+}  // namespace bedscope::digitise
