@@ -57,7 +57,7 @@ struct FileIndex {
   std::vector<IndexedSnapshot> snapshots;
   std::vector<std::string> named;  ///< every path that it names, indices included
   std::vector<std::string> notes;  ///< worth knowing, nothing wrong
-  std::string error;  ///< why it cannot be used; empty if it can
+  std::string error;               ///< why it cannot be used; empty if it can
 };
 
 /// Reads an index and those that it names. Pieces and blocks have to lie below its folder; nothing
