@@ -133,8 +133,8 @@ void follow(const Study& study, const Options& options, OutputFolder& output) {
     if (waiting != error.what() && !options.common.quiet) fmt::print("waiting: {}\n", error.what());
     waiting = error.what();
   };
+  bool news = false;  // not yet written
   while (interrupted == 0) {
-    bool news = false;
     try {
       for (auto& run : live) news = run.update() || news;
       if (news) {
@@ -142,12 +142,13 @@ void follow(const Study& study, const Options& options, OutputFolder& output) {
         results.reserve(live.size());
         for (const auto& run : live) results.push_back(run.result());
         write_all(study, results, options, output);
+        news = false;
         if (!options.common.quiet)
           for (const auto& result : results)
             fmt::print("{}: {} snapshots, mean holdup {:.4g} +- {:.2g}\n", result.label,
                        result.occurrence.size(), result.mean_holdup.value, result.mean_holdup.ci95);
       }
-    } catch (const FileError& error) {  // nothing there yet
+    } catch (const FileError& error) {  // nothing there yet, or the disk is full
       wait_for(error);
     } catch (const CutError& error) {  // the first dump is being written
       wait_for(error);
