@@ -101,8 +101,8 @@ std::map<int, std::vector<std::size_t>> by_size(const Spheres& s) {
   for (std::size_t row = 0; row < s.x.size(); ++row) {
     const double r = s.radius[row];
     // Coordinates beyond 1e12 diameters have no digits left to tell an overlap from.
-    const double farthest = std::max({std::abs(s.x[row]), std::abs(s.y[row]), std::abs(s.z[row])});
-    if (std::isfinite(r) && r > 1e-100 && farthest < 1e12 * r)
+    const auto near = [&](double x) { return std::abs(x) < 1e12 * r; };  // false for NaN
+    if (std::isfinite(r) && r > 1e-100 && near(s.x[row]) && near(s.y[row]) && near(s.z[row]))
       classes[std::ilogb(r)].push_back(row);
   }
   return classes;

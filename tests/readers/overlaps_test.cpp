@@ -55,6 +55,15 @@ TEST(Overlaps, OfTwoSpheresAreRadiiLessDistanceOverTheSmallerRadiusLessTheLastDi
   EXPECT_EQ(find_overlaps(bed.spheres()).deepest, 0);
 }
 
+TEST(Overlaps, ASphereThatIsNowhereTouchesNone) {
+  for (int axis = 0; axis < 3; ++axis) {
+    Bed bed;
+    bed.add(axis == 0 ? NAN : 0, axis == 1 ? NAN : 0, axis == 2 ? NAN : 0, 1);
+    bed.add(0.5, 0.5, 0.5, 1);
+    EXPECT_EQ(find_overlaps(bed.spheres()).deep, 0);
+  }
+}
+
 TEST(Overlaps, ThatTheDigitsOfADumpLeaveOpenAreNone) {
   Bed bed;  // at 1.5 m the sixth digit is 1e-5 m, 1 % of this radius
   bed.add(1.50000, 0, 0, 0.001);
