@@ -127,8 +127,10 @@ void FoamEntries::follow(const FoamToken& directive, FoamDictionary& dictionary)
   }
   const fs::path target = fs::path(stream_->path()).parent_path() / path.text;
   std::error_code ignored;  // a name that is too long is the name of no file
-  if (fs::path(path.text).is_absolute() || path.text.find('$') != std::string::npos ||
-      path.text.find('<') != std::string::npos || !fs::is_regular_file(target, ignored)) {
+  // A NUL would cut the name and so name another file.
+  if (fs::path(path.text).is_absolute() ||
+      path.text.find_first_of(std::string_view("$<\0", 3)) != std::string::npos ||
+      !fs::is_regular_file(target, ignored)) {
     if (!optional) dictionary.not_followed.push_back(fmt::format("#include \"{}\"", path.text));
     return;
   }
@@ -140,8 +142,9 @@ void FoamEntries::follow(const FoamToken& directive, FoamDictionary& dictionary)
   if (static_cast<int>(chain.size()) > deepest)
     stream_->fail(directive.offset, "#include of more than {} files in one another", deepest);
   FoamStream stream(target.string());
-  read_header(stream);
-  FoamEntries(stream, std::move(chain)).all(dictionary);
+  FoamEntries included(stream, std::move(chain));  // its header may include files, too
+  included.header();
+  included.all(dictionary);
 }
 
 std::string FoamEntries::value_text(const FoamToken& keyword) {
@@ -202,7 +205,10 @@ void FoamEntries::all(FoamDictionary& dictionary) {
     entry(token, dictionary);
 }
 
-FoamHeader read_header(FoamStream& stream) {
+FoamHeader read_header(FoamStream& stream) { return FoamEntries(stream).header(); }
+
+FoamHeader FoamEntries::header() {
+  auto& stream = *stream_;
   FoamHeader header;
   if (stream.peek() != 'F') return header;
   constexpr std::string_view name = "FoamFile";
@@ -212,7 +218,7 @@ FoamHeader read_header(FoamStream& stream) {
            .starts_with(name))
     return header;
   FoamDictionary dictionary;
-  FoamEntries(stream).entry(stream.next(), dictionary);
+  entry(stream.next(), dictionary);
   const auto* entries = dictionary.dictionary(name);
   if (entries == nullptr) stream.fail(stream.offset(), "expected \"{{\" after FoamFile");
   const auto text = [&](std::string_view key) {

@@ -64,6 +64,8 @@ class FoamEntries {
   void entry(const FoamToken& keyword, FoamDictionary& dictionary);
   /// Reads the rest of the file.
   void all(FoamDictionary& dictionary);
+  /// Reads the header, as `read_header` does.
+  FoamHeader header();
 
  private:
   FoamEntries(FoamStream& stream, std::vector<std::string> chain);

@@ -108,6 +108,23 @@ TEST(OpenFoamDictionary, IncludeInACircleIsAnErrorWithItsLine) {
             folder.path("b") + ": line 3: #include of a file that includes this one");
 }
 
+TEST(OpenFoamDictionary, AHeaderThatIncludesItsOwnFileIsAnErrorToo) {
+  const Folder folder;
+  folder.write("a", "FoamFile { version 2.0; #include \"b\"\n}\n");
+  folder.write("b", "FoamFile { version 2.0; #include \"b\"\n}\n");
+  EXPECT_EQ(error_of([&] { read_dictionary(folder.path("a")); }),
+            folder.path("b") + ": line 1: #include of itself");
+}
+
+TEST(OpenFoamDictionary, ANameThatANulCutsIsNoFile) {
+  // It would be "a": the file itself, again and again (found by the fuzzer).
+  const Folder folder;
+  const std::string text = "FoamFile { #include \"a" + std::string(3, '\0') + "\"\n}\nspeed 3;\n";
+  folder.write("a", text);
+  const auto d = read_dictionary(folder.path("a"));
+  EXPECT_EQ(d.value("speed", "a"), "3");
+}
+
 TEST(OpenFoamDictionary, MissingIncludeMattersOnlyToTheEntryThatNeedsIt) {
   const auto d = parse("#include \"gone\"\na 1; b $fromThere;");
   EXPECT_EQ(d.value("a", ""), "1");
