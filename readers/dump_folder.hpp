@@ -30,6 +30,7 @@ struct DumpUnit {
   NameParts name;                    ///< of the dump, or of what the index names
   std::vector<IndexedFile> indexed;  ///< where an index names the files; else empty
   std::vector<std::int64_t> pieces;  ///< numbers of the processors; else empty
+  std::string of_index;              ///< the path of what an index calls a snapshot; else empty
   double time = unknown;             ///< [s], of the index
   std::optional<std::int64_t> step_of_name;
   bool last = false;  ///< of the highest step: the one that a killed run leaves cut
