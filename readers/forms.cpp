@@ -43,6 +43,7 @@ constexpr std::array strangers{
     Stranger{"\xfd"
              "7zXZ",
              "compressed by xz: unpack it, or use gzip"},
+    Stranger{"\xff\xfeI", "text in UTF-16: save it as UTF-8 or ASCII"},
     Stranger{"BZh", "compressed by bzip2: unpack it, or use gzip"},
 };
 
