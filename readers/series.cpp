@@ -261,6 +261,15 @@ void Series::name_columns(const std::string& path, FileScan& scan) {
   }
 }
 
+void Series::thin(std::size_t n) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < entries_.size(); i += n) {
+    if (kept != i) entries_[kept] = std::move(entries_[i]);
+    ++kept;
+  }
+  entries_.resize(kept);
+}
+
 std::int64_t Series::particles(std::size_t i) const {
   std::int64_t sum = 0;
   for (const auto& part : entries_[i].parts) sum += part.where.particles;
