@@ -166,7 +166,7 @@ std::vector<TomlTable> TomlTable::tables(std::string_view name) {
 void TomlTable::finish() const {
   for (const auto& [name, node] : *table_)
     if (!known_.contains(std::string(name.str())))
-      throw InputError("{}: line {}: unknown key {}; the nearest known one is {}", *path_,
+      throw InputError("{}: line {}: unknown key {}; the nearest known one is {}", path_of(name),
                        name.source().begin.line, key(name.str()),
                        key(nearest_name(name.str(), known_)));
 }
