@@ -31,7 +31,7 @@ std::vector<RunSums::Species> RunSums::species() const {
               [&](std::size_t a, std::size_t b) { return slots_[a].type < slots_[b].type; });
   };
   in_order(found[0].slots);
-  for (const int type : types)
+  for (const int type : setup_->settings.wanted.species ? types : std::set<int>{})
     for (std::size_t s = 0; s < slots_.size(); ++s)
       if (slots_[s] == SlotKey{type, -1}) found.push_back({std::to_string(type), {s}});
   for (std::size_t rule = 0; rule < setup_->settings.species.size(); ++rule) {
@@ -157,6 +157,7 @@ void RunSums::profiles_of(const Species& species, const Window& window, SpeciesR
 
 void RunSums::fields_of(const Species& species, const WeightedSum& sum,
                         SpeciesResult& result) const {
+  if (!setup_->settings.wanted.fields) return;
   const auto cells = setup_->grid.size();
   auto& fields = result.fields;
   fields.holdup.assign(cells, 0);
@@ -249,7 +250,7 @@ void RunSums::means_of(const Window& window, RunResult& result) const {
     const auto& sample = samples_[i];
     weights.push_back(sample.weight);
     holdup.push_back(sample.volume_inside / grid.volume());
-    clusters.push_back(occurrence_[i].clusters);
+    if (!occurrence_.empty()) clusters.push_back(occurrence_[i].clusters);
     volumes.push_back(sample.volume);
     volume += sample.weight * sample.volume;
     outside += sample.weight * (sample.volume - sample.volume_inside);
@@ -267,7 +268,7 @@ void RunSums::means_of(const Window& window, RunResult& result) const {
   const auto mean = estimate_mean(holdup, weights);
   result.mean_holdup = mean.estimate();
   result.independent_samples = mean.independent_samples;
-  result.mean_occurrence = estimate_mean(clusters, weights).estimate();
+  if (!clusters.empty()) result.mean_occurrence = estimate_mean(clusters, weights).estimate();
   result.bed_voidage = estimate_mean(bed, weights).estimate();
   if (density_known() &&
       std::all_of(mass.begin(), mass.end(), [](double m) { return std::isfinite(m); }))

@@ -236,7 +236,9 @@ void set_heights(RunSetup& setup) {
   const auto& settings = setup.settings;
   const auto& grid = setup.grid;
   setup.heights = settings.heights;
-  if (setup.heights.empty())
+  if (!settings.wanted.lateral)
+    setup.heights.clear();
+  else if (setup.heights.empty())
     for (const double part : {0.25, 0.5, 0.75})
       setup.heights.push_back(grid.min[up] + part * grid.length(up));
   setup.band = settings.band > 0 ? settings.band : 2 * grid.width(up);
@@ -309,6 +311,8 @@ void update_times(RunSetup& setup, const readers::Series& series) {
 RunSetup set_up(const RunSettings& settings, const readers::Series& series) {
   RunSetup setup;
   setup.settings = settings;
+  const auto& wanted = settings.wanted;
+  if (!wanted.species) setup.settings.species.clear();
   const auto log = readers::find_log(series.path(0));
   find_time_step(log, series.has_steps(), setup);
   update_times(setup, series);
@@ -332,27 +336,33 @@ RunSetup set_up(const RunSettings& settings, const readers::Series& series) {
   const auto name = [&](const char* prefix, int k) {
     return prefix + std::string(1, "xyz"[axes[static_cast<std::size_t>(k)]]);
   };
-  setup.has_velocity = in_dumps(series, name("v", lateral)) && in_dumps(series, name("v", up));
+  const bool needs_type =
+      wanted.species || !setup.density.of_type.empty() || !settings.radius.of_type.empty();
+  // Mean fields and clusters have a lateral velocity, profiles need the one along `up` only.
+  const bool needs_lateral = wanted.fields || wanted.clusters;
+  setup.has_velocity =
+      (!needs_lateral || in_dumps(series, name("v", lateral))) && in_dumps(series, name("v", up));
   if (!setup.has_velocity)
     setup.problems.emplace_back("no velocity columns: velocities and mass fluxes are nan");
-  setup.has_temperature = in_dumps(series, settings.temperature_column);
-  if (!setup.has_temperature && settings.temperature_column != "temperature")
+  setup.has_temperature = wanted.temperature && in_dumps(series, settings.temperature_column);
+  if (wanted.temperature && !setup.has_temperature && settings.temperature_column != "temperature")
     throw InputError("run \"{}\": temperature.column: the dumps have no \"{}\" (columns: {})",
                      settings.label, settings.temperature_column, fmt::join(series.columns(), " "));
   setup.request = {
       {name("", lateral)},
       {name("", depth)},
       {name("", up)},
-      {name("v", lateral), setup.has_velocity},
+      {needs_lateral ? name("v", lateral) : "no lateral velocity needed",
+       needs_lateral && setup.has_velocity},
       {name("v", up), setup.has_velocity},
       {setup.radius_in_dumps ? "radius" : "no radius needed", setup.radius_in_dumps},
-      {"type", in_dumps(series, "type")},
-      {"id", false},
+      {needs_type ? "type" : "no type needed", needs_type && in_dumps(series, "type")},
+      {wanted.id_check ? "id" : "no id needed", false},
       {setup.has_temperature ? readers::name_on_disk(series.parts(), settings.temperature_column)
                              : "no temperature",
        setup.has_temperature},
       density_column(setup)};
-  for (const auto& rule : settings.species) setup.request.push_back({rule.column});
+  for (const auto& rule : setup.settings.species) setup.request.push_back({rule.column});
   setup.request_without_id = setup.request;
   setup.request_without_id[column_id] = {"no id needed", false};
   return setup;

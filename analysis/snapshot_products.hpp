@@ -138,7 +138,12 @@ struct ProductScratch {
 /// column is not read for the others.
 bool ids_wanted(std::size_t i, std::size_t snapshots);
 
-/// Reads snapshot i and computes all its sums into `out`, whose buffers are re-used.
+/// Computes all sums of snapshot i, whose columns (as RunSetup::request has them, those of the id
+/// may be missing) are in scratch.snapshot, into `out`, whose buffers are re-used.
+void sum_snapshot(const RunSetup& setup, std::size_t i, SnapshotProduct& out,
+                  ProductScratch& scratch);
+
+/// Reads snapshot i and does the same.
 void make_product(const RunSetup& setup, const readers::Series& series, std::size_t i,
                   SnapshotProduct& out, ProductScratch& scratch);
 

@@ -50,7 +50,8 @@ class Resolver {
     std::string missing;  // told at the end: what else is named has to be known
     const IndexEntry* before = nullptr;
     const auto entries = form.read(path, whole_text(path));
-    if (entries.empty()) throw FormatError("{}: names no files", path);
+    if (entries.empty() && !form.one_snapshot) throw FormatError("{}: names no files", path);
+    if (entries.empty()) found.push_back({path, unknown, {}});  // no process had particles
     for (const auto& entry : entries) {
       IndexedFile file{(fs::path(path).parent_path() / entry.name).lexically_normal().string(),
                        path, fmt::format("{} {}", form.name, entry.name), entry.offset};

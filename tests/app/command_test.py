@@ -624,6 +624,15 @@ class Info(Command):
         self.assertEqual(done.returncode, 0)
         self.assertIsNone(json.loads(done.stdout)["radius"])
 
+    def test_binary_without_names(self):
+        dump = os.path.join(os.path.dirname(__file__), "../data/liggghts_parallel/gather1000.bin")
+        info = json.loads(self.run_it("info", dump, "--json").stdout)
+        self.assertEqual((info["snapshots"], info["steps"], info["columns"][0]), (1, [1000], "column 1"))
+        self.assertIsNone(info["inventory"])
+        self.assertIn("columns = [...]", info["analyse"]["stops"])
+        study = self.run_it("info", dump, "--study")
+        self.assertEqual((study.returncode, "columns = [...]" in study.stderr), (2, True))
+
 
 class Follow(Command):
     def start(self, study):
