@@ -219,13 +219,14 @@ std::string feed(const Scene& scene) {
                              scene.species.size(), templates);
   text += fmt::format("region entry block {:.9g} {:.9g} {:.9g} {:.9g} {:.9g} {:.9g} units box\n",
                       low[0], high[0], low[1], high[1], low[2], high[2]);
-  text += when + fmt::format(
-                     "\"fix feed particles insert/rate/region seed 49979687 "
-                     "distributiontemplate fed massrate {:.9g} insert_every {} overlapcheck "
-                     "yes all_in yes vel constant {:.9g} {:.9g} {:.9g} region entry\"\n",
-                     in.flux * cross_section(scene),
-                     steps(std::max(scene.numerics.gas_step, 1e-3), scene.numerics.dem_step),
-                     in.velocity[0], in.velocity[1], in.velocity[2]);
+  text +=
+      when + fmt::format(
+                 "\"fix feed particles insert/rate/region seed 49979687 "
+                 "distributiontemplate fed mass INF massrate {:.9g} insert_every {} overlapcheck "
+                 "yes all_in yes vel constant {:.9g} {:.9g} {:.9g} region entry\"\n",
+                 in.flux * cross_section(scene),
+                 steps(std::max(scene.numerics.gas_step, 1e-3), scene.numerics.dem_step),
+                 in.velocity[0], in.velocity[1], in.velocity[2]);
   return text;
 }
 

@@ -12,7 +12,8 @@
 namespace bedscope::cases {
 namespace {
 
-constexpr std::array<std::string_view, 3> amounts{"number", "mass", "holdup"};
+constexpr std::array<std::string_view, 5> amounts{"number", "mass", "holdup", "lattice",
+                                                  "position"};
 
 void drop_other_amounts(const toml::table& upper, toml::table& lower) {
   for (const auto key : amounts)

@@ -123,6 +123,10 @@ void read_particles(Table& t, Scene& scene) {
   const auto seed = t.integer("seed").value_or(1);
   if (seed < 0) t.fail(*t.find("seed"), "particles.seed: expected at least 0, found {}", seed);
   p.seed = static_cast<std::uint64_t>(seed);
+  const bool counted = p.arrangement == Arrangement::bed || p.arrangement == Arrangement::uniform;
+  for (const auto* key : {"number", "mass", "holdup"})
+    if (const auto* node = t.find(key); node != nullptr && !counted)
+      t.fail(*node, "{}: expected with arrangement \"bed\" or \"uniform\" only", t.key(key));
   if (p.arrangement == Arrangement::single) {
     p.number = 1;
     if (t.find("position") == nullptr)

@@ -152,6 +152,7 @@ TEST_F(SceneFile, WithBadValuesSaysWhatWasExpected) {
       {"scale = { factor = 100, condition = \"b\" }", "leaves no particle"},
       {"[[species]]\n[[species]]\nfraction = 0.5", "fraction is missing"},
       {"[[species]]\nfraction = 0.3\n[[species]]\nfraction = 0.5", "expected a sum of 1"},
+      {"particles = { arrangement = \"single\", number = 2, position = [0, 0, 0] }", "only"},
       {"title = 3", "expected a text"}};
   for (const auto& [line, expected] : cases) {
     const auto text = error(write("bad.toml", std::string("base = \"base.toml\"\n") + line + "\n"));
