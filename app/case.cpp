@@ -7,6 +7,7 @@
 #include <fstream>
 #include <memory>
 
+#include "app/case_run.hpp"
 #include "app/case_text.hpp"
 #include "app/commands.hpp"
 #include "app/output_folder.hpp"
@@ -21,7 +22,7 @@ namespace fs = std::filesystem;
 
 struct Options {
   Common common;
-  std::string scene, output, condition;
+  std::string scene, output, condition, of_run;
   double factor = 0;
   bool force = false;
 };
@@ -82,12 +83,14 @@ void scale(const Options& options) {
 }
 
 void check(const Options& options) {
-  const auto scene = cases::read_scene(options.scene);
+  std::vector<std::string> remarks;
+  const auto scene = is_run(options.scene) ? scene_of_run(options.scene, options.of_run, remarks)
+                                           : cases::read_scene(options.scene);
   const auto report = cases::check_scene(scene);
   if (options.common.json)
-    fmt::print("{}", check_json(scene, report, {}));
+    fmt::print("{}", check_json(scene, report, remarks));
   else if (!options.common.quiet)
-    fmt::print("{}", check_text(scene, report, {}));
+    fmt::print("{}", check_text(scene, report, remarks));
 }
 
 }  // namespace
@@ -114,7 +117,12 @@ void add_case(CLI::App& app) {
       ->required()
       ->check(CLI::IsMember({"a", "b", "c", "d"}));
   scaled->add_option("-o,--output", of_scaled->output, "write the scaled scene to this file");
-  add("check", "numbers, limits with their margins, and the models that the scene needs", check);
+  auto [checked, of_check] =
+      add("check", "numbers, limits with their margins, and the models that are needed", check);
+  checked->get_option("scene")->description(
+      "a scene (.toml), or a run: dumps, a study, results.h5");
+  checked->add_option("--scene", of_check->of_run,
+                      "of a run: its scene; else a scene.toml in its folder or above");
 }
 
 }  // namespace bedscope::app

@@ -214,7 +214,9 @@ std::vector<Advice> scene_advice(const Scene& scene) {
     advice.push_back(radiation(scene));
     advice.push_back(third_dimension(scene));
   }
-  if (solids) advice.push_back(rotation(scene));
+  const auto& contact = scene.contacts.particle;
+  if (solids && (contact.normal_stiffness > 0 || contact.young > 0))
+    advice.push_back(rotation(scene));
   advice.push_back(polydispersity(scene));
   return advice;
 }

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`bedscope case` as a user runs it; its decks in Debian's LIGGGHTS and OpenFOAM, where installed.
 
-    case_test.py BEDSCOPE PROJECT [Scale|Check|BadInput|Decks|OpenFoam|Liggghts]
+    case_test.py BEDSCOPE PROJECT [Scale|Check|Run|BadInput|Decks|OpenFoam|Liggghts]
 """
 import glob
 import json
@@ -120,6 +120,48 @@ class Check(Case):
         for law, expected in (("beetstra", 4.938), ("wen_yu", 5.953), ("di_felice", 5.31)):
             numbers = self.checked(self.over("riser/scene.toml", f'models.drag = "{law}"'))["numbers"]
             self.assertAlmostEqual(numbers["u_t"], expected, delta=0.005)
+
+
+class Run(Case):
+    SAMPLE = PROJECT + "/data/samples/riser/study.toml"
+
+    def checked(self, *words):
+        done = case("check", *words, "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return json.loads(done.stdout)
+
+    def test_of_a_run_with_its_scene_is_the_scene_as_it_ran(self):
+        told = self.checked(self.SAMPLE, "--scene", SCENES + "riser/K2_b.toml")
+        scene = self.checked(SCENES + "riser/K2_b.toml")
+        for name in ("u_t", "u_mf", "Re", "Ar", "dV/V_p", "contact time"):
+            self.assertAlmostEqual(told["numbers"][name] / scene["numbers"][name], 1, 5, name)
+        # particles meet more slowly than gas and gravity could make them
+        self.assertLess(told["numbers"]["impact velocity"], scene["numbers"]["impact velocity"])
+        self.assertGreater(told["numbers"]["impact velocity"], 0.5)
+
+    def test_of_a_run_alone_tells_what_is_known(self):
+        told = self.checked(self.SAMPLE)
+        numbers = told["numbers"]
+        mass = numbers["particles"] * 2500 * math.pi / 6 * 1.7e-3**3
+        self.assertAlmostEqual(numbers["solids mass"] / mass, 1, 4)
+        self.assertAlmostEqual(numbers["holdup"], mass / 2500 / (0.07 * 0.006 * 1.57), 6)
+        self.assertNotIn("u_t", numbers)
+        self.assertTrue(any("no scene is known" in r for r in told["remarks"]))
+
+    def test_of_results_is_that_of_the_dumps(self):
+        done = run(BEDSCOPE, "analyse", self.SAMPLE, "-o", self.folder + "/out", "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        scene = self.write("out/scene.toml", f'base = "{SCENES}riser/K2_b.toml"\n')
+        by_results, by_dumps = (self.checked(*words)["numbers"] for words in (
+            [self.folder + "/out/results.h5"], [self.SAMPLE, "--scene", scene]))
+        for name in ("u_t", "Ar", "particles", "solids mass"):
+            self.assertAlmostEqual(by_results[name] / by_dumps[name], 1, 3, name)
+
+    def test_what_is_no_run_is_one_line(self):
+        for path in (self.write("no.h5", "text"), self.folder + "/none", self.write("x.toml", "[[run]]\n")):
+            done = case("check", path)
+            self.assertEqual(done.returncode, 2, done.stdout)
+            self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
 
 
 class BadInput(Case):
