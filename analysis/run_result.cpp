@@ -338,6 +338,8 @@ RunResult RunSums::finish(const readers::Series& series, const Window& window) &
                       100 * found.temperature_outside));
     result.species.push_back(std::move(found));
   }
+  if (auto edge = sensitivity_.describe(setup.settings.clusters); !edge.empty())
+    result.problems.push_back(std::move(edge));
   result.occurrence = occurrence_;
   result.clusters = std::move(clusters_);
   keep_from(result.clusters, window.first);
