@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dem.hpp"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -20,8 +23,51 @@
 
 namespace bedscope::coupled {
 namespace {
+
 constexpr const char* screen_file = "DEM/log.liggghts";
+
+// LIGGGHTS enters its styles into static tables each time it is opened, and complains of the second
+// time on stderr, 600 lines long; read_restart writes a version to stdout.
+class Silence {
+ public:
+  Silence() {
+    for (int n : {0, 1}) kept[n] = ::dup(n + 1);
+    const int nowhere = ::open("/dev/null", O_WRONLY);
+    for (int fd : {1, 2}) ::dup2(nowhere, fd);
+    ::close(nowhere);
+  }
+  ~Silence() {
+    std::fflush(stdout);
+    restore();
+    for (int fd : kept) ::close(fd);
+  }
+  Silence(const Silence&) = delete;
+  static void restore() {
+    for (int n : {0, 1}) ::dup2(kept[n], n + 1);
+  }
+
+ private:
+  static inline int kept[2] = {1, 2};
+};
+
+// LIGGGHTS ends the process by itself, MPI_Abort() or exit(), and says why in its log only.
+bool inside = false;  // whether it is LIGGGHTS that runs
+void tell_error() {
+  if (!inside) return;
+  Silence::restore();
+  std::ifstream log(screen_file);
+  std::string line, error = "stopped without an error message";
+  while (std::getline(log, line))
+    if (line.rfind("ERROR", 0) == 0) error = line;
+  std::fprintf(stderr, "bedscope-coupled: LIGGGHTS: %s (%s)\n", error.c_str(), screen_file);
 }
+struct Inside {
+  bool before = inside;
+  Inside() { inside = true; }
+  ~Inside() { inside = before; }
+};
+
+}  // namespace
 
 struct Dem::Handle {
   void* opaque = nullptr;
@@ -49,9 +95,15 @@ void Dem::open(const std::string& restart) {
                                  "-var", "restart", restart.empty() ? "none" : restart};
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
+  static const bool once = std::atexit([] { if (inside) tell_error(), _exit(2); }) == 0;
+  (void)once;
+  const Inside guard;
+  std::fflush(stdout);
+  auto silence = std::make_unique<Silence>();
   lammps_open(int(argv.size()), argv.data(), comm_, &handle_->opaque);
   if (FILE* screen = handle_->lmp().screen) setvbuf(screen, nullptr, _IOLBF, 0);
   lammps_file(handle_->opaque, deck_.c_str());
+  silence.reset();
   changed_ = true;
   run(0);  // fixes create what they need when they are first initialised
   next_id_ = std::max(next_id_, handle_->atom().tag_max() + 1);
@@ -62,9 +114,13 @@ void Dem::open(const std::string& restart) {
     throw BadInput(deck_ + ": no 'fix heat/gran' with 'fix couple/cfd/convection', needed by energy");
 }
 
-void Dem::write_restart(const std::string& file) { handle_->command("write_restart " + file); }
+void Dem::write_restart(const std::string& file) {
+  const Inside guard;
+  handle_->command("write_restart " + file);
+}
 
 void Dem::run(int steps) {
+  const Inside guard;
   handle_->command("run " + std::to_string(steps) + (changed_ ? " pre yes" : " pre no") + " post no");
   changed_ = false;
 }
@@ -172,12 +228,10 @@ long Dem::count() const {
 double Dem::time_step() const { return handle_->lmp().update->dt; }
 long Dem::step() const { return handle_->lmp().update->ntimestep; }
 
-std::string liggghts_error() {
-  std::ifstream log(screen_file);
-  std::string line, error;
-  while (std::getline(log, line))
-    if (line.rfind("ERROR", 0) == 0) error = line;
-  return error;
-}
-
 }  // namespace bedscope::coupled
+
+// MPI lets a program stand in for its functions.
+extern "C" int MPI_Abort(MPI_Comm comm, int code) {
+  bedscope::coupled::tell_error();
+  return PMPI_Abort(comm, code == 1 ? 2 : code);
+}

@@ -71,7 +71,4 @@ class Dem {
   bool changed_ = true;  ///< positions were touched: LIGGGHTS must set up before it runs
 };
 
-/// The last error in LIGGGHTS' log, or an empty string. It aborts without flushing or telling why.
-std::string liggghts_error();
-
 }  // namespace bedscope::coupled

@@ -21,7 +21,7 @@ IOobject silent(const word& name, const Time& time, const fvMesh& mesh) {
 // OpenFOAM's argList and Time, of which a process has one each.
 struct Process {
   std::unique_ptr<argList> arguments;
-  std::unique_ptr<Time> time;
+  std::unique_ptr<Time> time;  // goes first
 };
 Process process;
 
@@ -79,17 +79,21 @@ Gas::Gas(bool parallel) {
     Time& time = open_case(parallel);
     f_ = std::make_unique<Fields>(time, read_settings(time));
   } catch (const Foam::IOerror& error) {
+    process = {};
     throw BadInput(error.ioFileName() + ": line " + std::to_string(error.ioStartLineNumber()) + ": " +
                    error.message());
   } catch (const Foam::error& error) {
+    process = {};
     throw BadInput(error.message());
+  } catch (...) {
+    process = {};
+    throw;
   }
 }
 
 Gas::~Gas() {
   f_.reset();
-  process.time.reset();
-  process.arguments.reset();
+  process = {};
 }
 
 const Settings& Gas::settings() const { return f_->settings; }

@@ -201,11 +201,3 @@ int main(int argc, char** argv) {
   MPI_Finalize();
   return code;
 }
-
-// LIGGGHTS ends the process by MPI_Abort and says why in its log only; MPI lets a program stand in.
-extern "C" int MPI_Abort(MPI_Comm comm, int code) {
-  const std::string error = bedscope::coupled::liggghts_error();
-  std::fprintf(stderr, "bedscope-coupled: LIGGGHTS: %s (DEM/log.liggghts)\n",
-               error.empty() ? "stopped without an error message" : error.c_str());
-  return PMPI_Abort(comm, code == 1 ? 2 : code);
-}

@@ -38,7 +38,7 @@ class Case:
         self.heat, self.temperature = None, (300.0, 300.0)
         self.margin, self.dump_every = 0.0, 0
         self.schemes = {"U": "Gauss linearUpwind grad(U)", "T": "Gauss upwind"}
-        self.closed = False
+        self.closed, self.tolerance = False, 1e-9
         for key, value in options.items():
             if not hasattr(self, key):
                 raise KeyError(key)
@@ -59,14 +59,14 @@ ddtSchemes {{ default Euler; }} gradSchemes {{ default Gauss linear; }}
 divSchemes {{ default Gauss linear; div(alphaPhi,U) {self.schemes['U']}; div(alphaPhi,T) {self.schemes['T']}; }}
 laplacianSchemes {{ default Gauss linear corrected; }} interpolationSchemes {{ default linear; }}
 snGradSchemes {{ default corrected; }}""")
-        self.put("CFD/system/fvSolution", "dictionary", """
+        self.put("CFD/system/fvSolution", "dictionary", f"""
 solvers
-{
-    p { solver GAMG; smoother GaussSeidel; tolerance 1e-9; relTol 0.01; }
-    pFinal { $p; tolerance 1e-11; relTol 0; }
-    "(U|T)" { solver smoothSolver; smoother symGaussSeidel; tolerance 1e-11; relTol 0; }
-}
-PISO { nCorrectors 2; nNonOrthogonalCorrectors 0; pRefCell 0; pRefValue 0; }""")
+{{
+    p {{ solver GAMG; smoother GaussSeidel; tolerance {self.tolerance}; relTol 0.02; }}
+    pFinal {{ $p; tolerance {self.tolerance / 10}; relTol 0; }}
+    "(U|T)" {{ solver smoothSolver; smoother symGaussSeidel; tolerance {self.tolerance}; relTol 0; }}
+}}
+PISO {{ nCorrectors 2; nNonOrthogonalCorrectors 0; pRefCell 0; pRefValue 0; }}""")
         self.put("CFD/system/decomposeParDict", "dictionary",
                  "numberOfSubdomains 2; method simple; simpleCoeffs { n (1 1 2); delta 0.001; }")
         self.put("CFD/constant/coupledProperties", "dictionary", f"""
@@ -143,7 +143,7 @@ units si
 processors 1 1 *
 if "${{resumed}} == 0" then "read_data DEM/particles.data" else "read_restart ${{restart}}"
 neighbor {0.5 * smallest:g} bin
-neigh_modify delay 0
+neigh_modify delay 0 binsize {max(2 * smallest, max(self.size) / 60):g}
 """
         for name, value in properties.items():
             text += f"fix {name} all property/global {name} peratomtypepair {wall} {pairs(value)}\n"
