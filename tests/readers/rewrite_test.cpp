@@ -13,7 +13,8 @@
 namespace bedscope::readers {
 namespace {
 
-const Request request{{"x"}, {"y"}, {"z"}, {"vx"}, {"vy"}, {"vz"}, {"radius"}, {"type"}, {"none", false}};
+const Request request{{"x"},  {"y"},      {"z"},    {"vx"},         {"vy"},
+                      {"vz"}, {"radius"}, {"type"}, {"none", false}};
 
 Snapshot particles() {
   Snapshot snapshot;
@@ -31,9 +32,9 @@ Snapshot particles() {
 class Rewrite : public ::testing::TestWithParam<DumpForm> {};
 
 TEST_P(Rewrite, GivesBackWhatTheFormHolds) {
-  const auto folder = std::filesystem::temp_directory_path() /
-                      ("bedscope_rewrite_" + std::to_string(::getpid()) + "_" +
-                       std::to_string(static_cast<int>(GetParam())));
+  const auto folder =
+      std::filesystem::temp_directory_path() / ("bedscope_rewrite_" + std::to_string(::getpid()) +
+                                                "_" + std::to_string(static_cast<int>(GetParam())));
   std::filesystem::create_directories(folder);
   const auto path = folder / "dump4000.x";
   auto expected = particles();
