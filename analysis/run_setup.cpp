@@ -267,6 +267,25 @@ void set_bubbles(RunSetup& setup) {
     setup.bubble_bands.push_back({height, width, layer_weights(setup, height, width)});
 }
 
+/// What the grid is too coarse for; docs/stability.md has the maps.
+void doubt_grid(RunSetup& setup) {
+  const auto& settings = setup.settings;
+  const auto& grid = setup.grid;
+  constexpr int fewest_cells = 5;  // two walls, a core, and what is between
+  if (settings.wanted.lateral && grid.cells[lateral] < fewest_cells)
+    setup.problems.push_back(
+        fmt::format("{} cells across: too few for a lateral profile to tell walls from core",
+                    grid.cells[lateral]));
+  double widest = std::max(grid.width(lateral), grid.width(up));
+  if (!grid.depth_averaged()) widest = std::max(widest, grid.width(depth));
+  if (settings.mapping == "gaussian" && settings.gaussian_width > 0 &&
+      settings.gaussian_width < widest * (1 - 1e-9))
+    setup.problems.push_back(
+        fmt::format("gaussian_width of {:g} m is narrower than a cell ({:g} m): holdups jump as "
+                    "particles cross faces",
+                    settings.gaussian_width, widest));
+}
+
 /// Times on disk are sums of steps: 0.3 s may be written 0.29999999999999998 [s].
 double rounding_of(const std::vector<double>& times) {
   double gap = INFINITY;
@@ -330,7 +349,9 @@ RunSetup set_up(const RunSettings& settings, const readers::Series& series) {
   set_density(series, log, setup);
   set_heights(setup);
   set_bubbles(setup);
-  setup.kernel = make_kernel(settings.mapping, setup.grid);
+  setup.kernel =
+      make_kernel(settings.mapping, setup.grid, {.gaussian_width = settings.gaussian_width});
+  doubt_grid(setup);
 
   const auto axes = bed_axes(settings);
   const auto name = [&](const char* prefix, int k) {

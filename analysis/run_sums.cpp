@@ -61,6 +61,7 @@ void RunSums::add(SnapshotProduct& product, double weight) {
   }
   samples_.push_back(std::move(sample));
 
+  if (weight > 0) sensitivity_.merge(product.sensitivity);
   double area = 0;
   for (auto& cluster : product.image.clusters) {
     cluster.snapshot = i;

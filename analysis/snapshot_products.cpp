@@ -298,9 +298,13 @@ void sum_snapshot(const RunSetup& setup, std::size_t i, SnapshotProduct& out,
   const auto& ids = scratch.snapshot.columns[column_id];
   if (!ids.empty()) readers::find_doubled_ids(ids, i, scratch.marks, out.flaws);
   reduce(setup, out, scratch);
-  if (wanted.clusters)
+  out.sensitivity = {};
+  if (wanted.clusters) {
+    const auto& thresholds = setup.settings.clusters;
     out.image = find_clusters(setup.grid, out.holdup, scratch.mass, scratch.mass_vx,
-                              scratch.mass_vz, setup.settings.clusters);
+                              scratch.mass_vz, thresholds);
+    if (sensitivity_wanted(i)) out.sensitivity.add(setup.grid, out.holdup, thresholds, out.image);
+  }
   out.bed = bed_heights(setup.grid, layer_holdups(setup.grid, out));
   if (setup.settings.bubbles) out.bubbles = make_bubbles(setup, out.holdup, out.bed.surface);
 }

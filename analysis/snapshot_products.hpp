@@ -7,6 +7,7 @@
 
 #include "analysis/bed_height.hpp"
 #include "analysis/bubbles.hpp"
+#include "analysis/cluster_sensitivity.hpp"
 #include "analysis/clusters.hpp"
 #include "analysis/run_setup.hpp"
 #include "readers/flaws.hpp"
@@ -111,6 +112,7 @@ struct SnapshotProduct {
   double temperature_zero = 0;           ///< T0 [K]
   std::int64_t without_temperature = 0;
   ClusterImage image;
+  ClusterSensitivity sensitivity;  ///< of some snapshots
   BedHeights bed;
   BubbleProduct bubbles;       ///< where the study asks for them
   std::vector<double> holdup;  ///< depth-averaged, all types
@@ -121,9 +123,9 @@ struct SnapshotProduct {
 template <class Archive>
 void archive(Archive& ar, SnapshotProduct& product) {
   auto& [snapshot, slots, used, volume, volume_inside, temperature_zero, without_temperature, image,
-         bed, bubbles, holdup, flaws, bytes_read] = product;
+         sensitivity, bed, bubbles, holdup, flaws, bytes_read] = product;
   ar(snapshot, slots, used, volume, volume_inside, temperature_zero, without_temperature, image,
-     bed, bubbles, holdup, flaws, bytes_read);
+     sensitivity, bed, bubbles, holdup, flaws, bytes_read);
 }
 
 /// Buffers of one worker.
