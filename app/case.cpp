@@ -64,8 +64,6 @@ void make(const Options& options) {
 
 void scale(const Options& options) {
   const auto scene = cases::read_scene(options.scene);
-  if (!(options.factor > 0) || options.factor > 1e6)
-    throw InputError("--factor: expected a number above 0 and up to 1e6, found {}", options.factor);
   const auto condition = physics::mapping_condition(options.condition);
   const auto scaled = cases::scale_scene(scene, options.factor, condition);
   const auto report = cases::scaling_report(scene, options.factor, condition);

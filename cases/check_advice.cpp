@@ -17,6 +17,9 @@ namespace {
 
 using namespace physics;
 
+constexpr const char* no_heat_data =
+    "cannot be told: the gas has no heat capacity and conductivity in the scene";
+
 /// Densest holdup that must be reckoned with: of the bed, not of the freeboard above it.
 double dense_holdup(const Scene& scene) {
   const bool bed = scene.particles.arrangement == Arrangement::bed;
@@ -133,6 +136,7 @@ Advice conduction(const Scene& scene) {
   if (scene.particles.arrangement == Arrangement::lattice &&
       scene.geometry.width / n[0] > s.diameter && scene.geometry.depth / n[1] > s.diameter)
     return {"conduction between particles", false, "the particles of the lattice do not touch"};
+  if (heat_transfer(scene, s) == 0) return {"conduction between particles", false, no_heat_data};
   const double k = s.conductivity > 0 ? s.conductivity : 1;
   const double through = 6 * contact_conductance(k, carrying_contact(scene));
   const double to_gas = heat_transfer(scene, s) * std::numbers::pi * s.diameter * s.diameter;
@@ -146,6 +150,7 @@ Advice conduction(const Scene& scene) {
 
 Advice radiation(const Scene& scene) {
   if (!heated(scene)) return {"radiation", false, "no temperature"};
+  if (heat_transfer(scene, scene.species[0]) == 0) return {"radiation", false, no_heat_data};
   double hottest = std::max(scene.gas->temperature, scene.particles.temperature);
   if (!scene.particles.fixed) hottest = std::max(hottest, bed_heat(scene).equilibrium);
   const double h = radiation_coefficient(0.9, hottest);

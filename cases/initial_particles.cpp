@@ -124,6 +124,9 @@ std::vector<int> shuffled_species(const Scene& scene, Random& random) {
 std::vector<InitialParticle> initial_particles(const Scene& scene) {
   const auto& p = scene.particles;
   if (p.arrangement == Arrangement::single) return {{0, scene.species[0].diameter, p.position}};
+  constexpr std::int64_t most = 20'000'000;  // their file has 1.5 GB
+  if (p.number > most)
+    throw InputError("particles: expected {} at most in a deck, found {}", most, p.number);
   const auto sites = sites_of(scene);
   require_room(scene, sites);
   Random random(p.seed);

@@ -287,7 +287,11 @@ Scene read_scene(const std::string& path) {
       t.fail(node != nullptr ? *node : t.raw(),
              "scale.condition: expected \"a\", \"b\", \"c\" or \"d\", found \"{}\"", letter);
     }
-    scene = scale_scene(scene, factor, physics::mapping_condition(letter));
+    try {
+      scene = scale_scene(scene, factor, physics::mapping_condition(letter));
+    } catch (const InputError& error) {  // in its words, with the place
+      t.fail(*t.find("factor"), "{}", error.what());
+    }
   });
   root.finish();
   return scene;

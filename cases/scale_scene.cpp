@@ -41,6 +41,8 @@ void remark_on_heat(const Scene& scene, double K, ScalingReport& report) {
 }  // namespace
 
 Scene scale_scene(const Scene& scene, double K, physics::MappingCondition condition) {
+  if (!(K >= 0.01 && K <= 100))
+    throw InputError("scaling factor: expected a number from 0.01 to 100, found {:g}", K);
   const auto factors = physics::scaling_factors(K, condition);
   Scene scaled = scene;
   scaled.title = fmt::format("{}{}K = {:g}, {}", scene.title, scene.title.empty() ? "" : ", ", K,

@@ -11,8 +11,8 @@ namespace bedscope::cases {
 
 /// The scene with K times larger particles (physics/scaling.hpp). The number of particles is
 /// rounded, and so are the cells along each axis, to at least one. A lattice is rounded along each
-/// axis. Hertz: the modulus stays, as k_n goes with E d. Throws InputError where too few particles
-/// remain.
+/// axis. K from 0.01 to 100. Hertz: the modulus stays, as k_n goes with E d. Throws InputError for
+/// another K and where no particle remains.
 Scene scale_scene(const Scene& scene, double K, physics::MappingCondition condition);
 
 struct ScaledGroup {

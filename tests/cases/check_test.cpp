@@ -171,7 +171,9 @@ TEST(Advice, OnTheThesisScenesIsTheThesisChoice) {
   }
   for (const auto* scene : {"bubbling_bed/scene.toml", "binary_riser/scene.toml"})
     for (const auto& a : scene_advice(shipped(scene)))
-      if (a.model == "third dimension") EXPECT_NE(a.reason.find("Mu (2022)"), std::string::npos);
+      if (a.model == "third dimension") {
+        EXPECT_NE(a.reason.find("Mu (2022)"), std::string::npos);
+      }
 }
 
 TEST(Advice, ChangesWithTheScene) {

@@ -185,7 +185,7 @@ TEST(ScaledBinaryRiser, GivesTable51) {
           {"tangential spring stiffness", s.contacts.particle.tangential_stiffness()}};
       const auto& printed = row[k + 2];
       // 514.03 by the right Eq. 4.14, printed 514.08 (docs/physics.md)
-      const double slack = row[0] == "tangential spring stiffness" ? 0.055 * factors[k] : 0;
+      const double slack = row[0] == "tangential spring stiffness" ? 0.06 * factors[k] : 0;
       EXPECT_NEAR(ours.at(row[0]), std::stod(printed), digit(printed) + slack)
           << row[0] << ", K = " << factors[k];
       ++compared;
@@ -206,6 +206,10 @@ TEST(ScaledBinaryRiser, GivesTable52) {
   const auto rows = table("table_5_2_mapping_conditions.csv");
   int compared = 0;
   const std::vector<double> factors{1, 1.5, 2, 3};
+  std::map<std::pair<std::string, std::size_t>, double> printed_cells;
+  for (const auto& row : rows)
+    for (std::size_t k = 0; k < 4 && row[0] == "Ncell"; ++k)
+      printed_cells[{row[1], k}] = std::stod(row[2 + 2 * k]);
   for (const auto& row : rows) {
     if (row[0] == "quantity") continue;
     const auto condition = physics::mapping_condition(row[1]);
@@ -226,10 +230,8 @@ TEST(ScaledBinaryRiser, GivesTable52) {
         else if (row[0] == "Ncell")
           EXPECT_EQ(cells_of(s), different.at({factors[k], row[1][0]}).ours) << where;
         else
-          for (const auto& cells : rows)
-            if (cells[0] == "Ncell" && cells[1] == row[1])
-              EXPECT_NEAR(cell_over_particle(s, i, std::stod(cells[2 + 2 * k])) / printed, 1, 0.013)
-                  << where;
+          EXPECT_NEAR(cell_over_particle(s, i, printed_cells.at({row[1], k})) / printed, 1, 0.013)
+              << where;
       }
     }
   }
@@ -266,8 +268,12 @@ TEST(ScaledScene, KeepsHertzByItsModulus) {
   const auto scaled = scale_scene(bed, 2, MappingCondition::b);
   EXPECT_EQ(scaled.contacts.particle.young, bed.contacts.particle.young);
   for (const auto& g : scaling_report(bed, 2, MappingCondition::b).groups) {
-    if (g.name == "N_kn" || g.name == "N_gamma_n") EXPECT_TRUE(g.kept) << g.name;
-    if (g.name == "Pr") EXPECT_NEAR(g.ratio, 2, 1e-12);  // the rule does not speak of heat
+    EXPECT_EQ(g.kept, g.ratio == 1 || std::abs(g.ratio - 1) < 1e-9) << g.name;
+    if (g.name == "N_kn" || g.name == "N_gamma_n") {
+      EXPECT_TRUE(g.kept) << g.name;
+    } else if (g.name == "Pr") {
+      EXPECT_NEAR(g.ratio, 2, 1e-12);  // the rule does not speak of heat
+    }
   }
 }
 

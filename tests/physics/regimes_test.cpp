@@ -42,11 +42,13 @@ TEST(Lift, IsSaffmansInCreepingFlow) {
               0.02);  // Mei's factor there is 0.999 (1 - 0.33 sqrt(beta)) + ...
 }
 
-TEST(Lift, OfMeiJoinsWithinTenPerCentAtReOf40) {
-  const double d = 1e-3, u = 40 * 1.8e-5 / 1.2 / d;
-  EXPECT_NEAR(lift_over_drag(air, d, u * 1.0001, 50, 1) / lift_over_drag(air, d, u * 0.9999, 50, 1),
-              1,
-              0.1);  // both fits, with beta = 0.04
+TEST(Lift, OfMeiStepsAtReOf40ByWhatIsLeftOfSaffmans) {
+  // 0.0524 sqrt(40) = 0.3314: the fits part by (1 - 0.3314 sqrt(beta)) e^-4.
+  const double d = 1e-3, u = 40 * 1.8e-5 / 1.2 / d, shear = 50;
+  const double b = 0.3314 * std::sqrt(shear * d / (2 * u));
+  EXPECT_NEAR(
+      lift_over_drag(air, d, u * 1.0001, shear, 1) / lift_over_drag(air, d, u * 0.9999, shear, 1),
+      b / ((1 - b) * std::exp(-4) + b), 1e-3);
 }
 
 TEST(Radiation, IsTheSlopeOfTheStefanBoltzmannLaw) {
