@@ -11,6 +11,7 @@
 #include "analysis/output_file.hpp"
 #include "analysis/tables.hpp"
 #include "app/commands.hpp"
+#include "app/output_folder.hpp"
 #include "app/progress.hpp"
 #include "app/study.hpp"
 #include "readers/error.hpp"
@@ -73,8 +74,9 @@ std::vector<Verdict> judge_all(const Study& study, std::span<const RunResult> re
 }
 
 void write_all(const Study& study, const std::vector<RunResult>& results,
-               const std::vector<Verdict>& verdicts, const Options& options) {
-  const std::filesystem::path folder = options.folder;
+               const std::vector<Verdict>& verdicts, const Options& options, OutputFolder& output) {
+  output.show_earlier();
+  const auto& folder = output.part();
   report::ValidationReport report{
       .title = study.title, .study = options.study, .runs = results, .verdicts = verdicts};
   if (!options.earlier.empty()) {
@@ -86,6 +88,7 @@ void write_all(const Study& study, const std::vector<RunResult>& results,
   analysis::write_file(folder / "junit.xml", report::junit_text(verdicts, study.title));
   analysis::write_file(folder / "summary.md", report::markdown_text(verdicts, study.title));
   analysis::write_file(folder / "summary.json", report::summary_with_checks(results, verdicts));
+  output.commit();
 }
 
 /// Each assumption is told once, however many checks rest on it.
@@ -112,10 +115,11 @@ int run(const Options& options) {
   if (study.checks.empty())
     throw InputError("{}: no [[check]]: expected at least one", options.study);
   add_heights(study);
+  OutputFolder output(options.folder);
   std::vector<RunResult> results;
   for (const auto& each : study.runs) results.push_back(result_of(each, options));
   const auto verdicts = judge_all(study, results, options);
-  write_all(study, results, verdicts, options);
+  write_all(study, results, verdicts, options, output);
   if (options.common.json)
     fmt::print("{}", report::summary_with_checks(results, verdicts));
   else if (!options.common.quiet)

@@ -7,6 +7,8 @@
 import csv
 import json
 import os
+import pathlib
+import resource
 import subprocess
 import sys
 import tempfile
@@ -26,7 +28,7 @@ CURVES = PROJECT + "/data/curves/varas_2017/"
 
 
 def bedscope(*words):
-    return subprocess.run([BEDSCOPE, *words], capture_output=True, text=True)
+    return subprocess.run([BEDSCOPE, *words], capture_output=True, text=True, timeout=120)
 
 
 def rows_of(path, **chosen):
@@ -154,6 +156,46 @@ class Validate(unittest.TestCase):
             self.assertIn(text, done.stderr)
             self.assertIn("study.toml", done.stderr)
             self.assertFalse(os.path.exists(self.folder + "/out/report.html"))
+
+    def test_pipes_devices_and_folders_are_no_curves(self):
+        study = self.study(['quantity = "axial holdup"\nagainst = "mine"\nmetric = "max error"\nlimit = 1'],
+                           head='curves = ["c"]\n')
+        os.makedirs(self.folder + "/c")
+        path = self.folder + "/c/mine"
+        for make in (os.mkfifo, os.mkdir, lambda name: os.symlink("/dev/zero", name)):
+            for ending in (".csv", ".toml"):
+                with open(path + (".toml" if ending == ".csv" else ".csv"), "w") as file:
+                    file.write('redistribute = "no"\n' if ending == ".csv" else "z [m],holdup [-]\n0,0.1\n1,0.1\n")
+                make(path + ending)
+                done = self.validate(study)
+                self.assertLessEqual(done.stderr.count("\n"), 1, done.stderr)
+                self.assertEqual(done.returncode, 2, done.stderr)
+                self.assertFalse(os.path.exists(self.folder + "/out"))
+                (os.rmdir if make is os.mkdir else os.remove)(path + ending)
+                os.remove(path + (".toml" if ending == ".csv" else ".csv"))
+        os.mkfifo(self.folder + "/earlier.json")
+        done = self.validate(self.study(['quantity = "mean holdup"\nagainst = 0.1\nmetric = "max error"\nlimit = 1']),
+                             "--earlier", self.folder + "/earlier.json")
+        self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
+
+    def test_a_write_that_fails_leaves_the_folder_as_it_was(self):
+        check = 'quantity = "axial holdup"\nagainst = 0.08\nmetric = "max error"\nlimit = 1'
+        whole = self.validate(self.study([check]))
+        self.assertEqual(whole.returncode, 0, whole.stderr)
+        out = self.folder + "/out"
+
+        def tree():
+            paths = [os.path.join(folder, name) for folder, _, names in os.walk(out) for name in names]
+            return {path: pathlib.Path(path).read_bytes() for path in paths}
+
+        before = tree()
+        study = self.study([check, check.replace("0.08", "0.07")])
+        sizes = sorted({len(content) for content in before.values()})
+        for limit in [0, *(size - 1 for size in sizes[::3]), sizes[-1] - 1]:
+            done = subprocess.run([BEDSCOPE, "validate", study, "-o", out], capture_output=True, text=True,
+                                  preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)))
+            self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
+            self.assertEqual(tree(), before, limit)
 
     def test_curves_lists_shows_and_prints(self):
         listed = bedscope("curves").stdout
