@@ -299,6 +299,12 @@ write("foam_case", "ranks", parts({"system/controlDict": "application x;\n", **c
 write("foam_case", "collated", parts({"system/controlDict": "application x;\n", **{
     f"processors2/{name}": collated(text, text) for name, text in case().items()}}))
 
+# -- gas out of VTK -------------------------------------------------------------------------------
+
+for path in sorted((data / "vtk_gas").rglob("*.vt[uk]")):
+    if path.stat().st_size < 40000:
+        write("vtk_gas", "_".join(path.relative_to(data / "vtk_gas").parts), path.read_bytes())
+
 # -- ours -----------------------------------------------------------------------------------------
 
 write("study", "full", """title = "t"
