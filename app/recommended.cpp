@@ -76,6 +76,8 @@ class Edits {
 };
 
 std::string quoted(const std::string& text) {
+  const auto plain = [](unsigned char c) { return c >= 0x20 && c != '"' && c != '\\'; };
+  if (std::all_of(text.begin(), text.end(), plain)) return '"' + text + '"';
   std::ostringstream out;
   out << toml::value<std::string>(text);
   return out.str();

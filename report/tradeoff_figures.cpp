@@ -16,6 +16,7 @@ using validation::Setting;
 
 namespace {
 
+constexpr double zero_line = 10;  // in the strip, from 1 to 100
 constexpr double width = 150, left = 21, right = 4, bottom = 11, strip = 6,
                  main_height = 78;  // [mm]
 
@@ -108,7 +109,8 @@ class Chart {
     zero.height = strip;
     zero.x_numbers = true;
     zero.y_numbers = false;
-    zero.y = {.lo = 0, .hi = 1, .first = 2, .step = 1, .last = 2};
+    // Logarithmic as the panel above, whose scale gnuplot would keep; one line of marks, no ticks.
+    zero.y = {.lo = 1, .hi = 100, .first = 1e9, .step = 10, .last = 1e9, .logarithmic = true};
     zero.y_label = "";
     zero.x_label = literal("CPU time of the analysis [s]");
     canvas.open(zero);
@@ -128,7 +130,7 @@ class Chart {
     for (const auto& setting : report_.tradeoff.settings) {
       const auto& e = error(setting).whole;
       if (!has(setting) || std::isnan(e.value) || is_zero(setting, p_) != zeros) continue;
-      found.push_back({setting.seconds, zeros ? 0.5 : e.value, zeros ? 0 : e.ci95});
+      found.push_back({setting.seconds, zeros ? zero_line : e.value, zeros ? 0 : e.ci95});
     }
     std::sort(found.begin(), found.end(),
               [](const Point& a, const Point& b) { return a.seconds < b.seconds; });

@@ -5,6 +5,7 @@
 #include "bad_input.hpp"
 #include "gas_fields.hpp"
 #include "settings_reader.hpp"
+#include "sigFpe.H"
 
 using namespace Foam;
 
@@ -17,13 +18,6 @@ IOobject must_read(const word& name, const Time& time, const fvMesh& mesh) {
 IOobject silent(const word& name, const Time& time, const fvMesh& mesh) {
   return IOobject(name, time.timeName(), mesh, IOobject::NO_READ, IOobject::NO_WRITE);
 }
-
-// OpenFOAM's argList and Time, of which a process has one each.
-struct Process {
-  std::unique_ptr<argList> arguments;
-  std::unique_ptr<Time> time;  // goes first
-};
-Process process;
 
 Time& open_case(bool parallel) {
   std::vector<std::string> words{"bedscope-coupled", "-case", "CFD"};
@@ -38,10 +32,12 @@ Time& open_case(bool parallel) {
   FatalIOError.throwExceptions();
   argList::noBanner();
   argList::noFunctionObjects();
-  process.arguments = std::make_unique<argList>(argc, argv, false, false);
-  process.time = std::make_unique<Time>(Time::controlDictName, *process.arguments);
-  process.time->setTime(0.0, 0);
-  return *process.time;
+  // Never destroyed: argList's destructor ends the process, with exit code 0.
+  const argList& arguments = *new argList(argc, argv, false, false);
+  sigFpe::unset(false);  // what blows up is told by its numbers, not by a crash
+  Time& time = *new Time(Time::controlDictName, arguments);
+  time.setTime(0.0, 0);
+  return time;
 }
 
 }  // namespace
@@ -79,22 +75,14 @@ Gas::Gas(bool parallel) {
     Time& time = open_case(parallel);
     f_ = std::make_unique<Fields>(time, read_settings(time));
   } catch (const Foam::IOerror& error) {
-    process = {};
     throw BadInput(error.ioFileName() + ": line " + std::to_string(error.ioStartLineNumber()) + ": " +
                    error.message());
   } catch (const Foam::error& error) {
-    process = {};
     throw BadInput(error.message());
-  } catch (...) {
-    process = {};
-    throw;
   }
 }
 
-Gas::~Gas() {
-  f_.reset();
-  process = {};
-}
+Gas::~Gas() = default;
 
 const Settings& Gas::settings() const { return f_->settings; }
 double Gas::time() const { return f_->time.value(); }
@@ -176,10 +164,12 @@ void Gas::set_solids_velocity(const std::vector<double>& velocity) {
 
 void Gas::begin_step() {
   ++f_->time;
-  f_->voidfraction.storeOldTimes();
-  f_->U.storeOldTimes();
-  f_->phi.storeOldTimes();
-  if (f_->T) f_->T->storeOldTimes();
+  // Before they change. The first call makes the old field, the second notes that it is of this step.
+  const auto keep = [](auto& field) { field.oldTime(), field.storeOldTimes(); };
+  keep(f_->voidfraction);
+  keep(f_->U);
+  keep(f_->phi);
+  if (f_->T) keep(*f_->T);
 }
 
 void Gas::write() const {

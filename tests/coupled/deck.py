@@ -64,7 +64,8 @@ solvers
 {{
     p {{ solver GAMG; smoother GaussSeidel; tolerance {self.tolerance}; relTol 0.02; }}
     pFinal {{ $p; tolerance {self.tolerance / 10}; relTol 0; }}
-    "(U|T)" {{ solver smoothSolver; smoother symGaussSeidel; tolerance {self.tolerance}; relTol 0; }}
+    U {{ solver smoothSolver; smoother symGaussSeidel; tolerance {self.tolerance}; relTol 0; }}
+    T {{ solver PBiCGStab; preconditioner DILU; tolerance {self.tolerance}; relTol 0; }}
 }}
 PISO {{ nCorrectors 2; nNonOrthogonalCorrectors 0; pRefCell 0; pRefValue 0; }}""")
         self.put("CFD/system/decomposeParDict", "dictionary",
@@ -171,8 +172,7 @@ timestep {self.dt / self.dem_steps:.12g}
         if self.moving:
             text += "fix integrate all nve/sphere\n"
         if self.start:
-            (self.folder / "DEM/start.liggghts").write_text(self.start)
-            text += 'if "${resumed} == 0" then "include DEM/start.liggghts"\n'
+            text += 'if "${resumed} == 0" then ' + " ".join(f'"{line}"' for line in self.start.splitlines()) + "\n"
         text += self.dem
         if self.dump_every:
             text += (f"dump d all custom {self.dump_every} DEM/post/dump*.liggghts id type x y z vx vy vz radius\n"

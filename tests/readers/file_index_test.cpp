@@ -236,6 +236,36 @@ TEST(FileIndex, GhostPointsOfPiecesAreCountedOnce) {
   EXPECT_EQ(look(Series::open(folder.path("a.vtp"))).ids, (Ids{{1, 2, 3, 4}}));  // by itself
 }
 
+// Legacy files have no index of pieces of their own: a .pvd names them.
+TEST(FileIndex, GhostPointsOfLegacyFilesAreCountedOnce) {
+  const TemporaryFolder folder;
+  const auto vtk = [](int first, int last, const std::string& array, const std::string& values) {
+    std::string points, cells, ids;
+    for (int id = first; id <= last; ++id) {
+      points += fmt::format("{} 0 0\n", id);
+      cells += fmt::format("1 {}\n", id - first);
+      ids += fmt::format("{} ", id);
+    }
+    const int n = last - first + 1;
+    return fmt::format(
+        "# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\nPOINTS {0} float\n{1}VERTICES {0} "
+        "{2}\n{3}POINT_DATA {0}\nSCALARS {4} unsigned_char 1\nLOOKUP_TABLE default\n{5}\nFIELD "
+        "FieldData 2\nid 1 {0} int\n{6}\nradius 1 {0} float\n{7}\n",
+        n, points, 2 * n, cells, array, values, ids,
+        fmt::join(std::vector<double>(static_cast<std::size_t>(n), 0.5), " "));
+  };
+  folder.write("a.vtk", vtk(1, 4, "vtkGhostType", "0 0 0 1"));
+  folder.write("b.vtk", vtk(2, 6, "vtkGhostType", "1 33 0 32 0"));
+  folder.write("d.vtk", vtk(2, 6, "vtkGhostLevels", "2 1 0 0 0"));
+  for (const auto* other : {"b.vtk", "d.vtk"}) {
+    const auto list = pvd({{"0.5", "a.vtk"}, {"0.5", other}});
+    const auto series = Series::open(folder.write("c.pvd", list));
+    EXPECT_EQ(look(series).ids, (Ids{{1, 2, 3, 4, 5, 6}})) << other;
+    EXPECT_EQ(series.place(0, 3), folder.path(other) + ": point 2");
+  }
+  EXPECT_EQ(look(Series::open(folder.path("a.vtk"))).ids, (Ids{{1, 2, 3, 4}}));  // by itself
+}
+
 TEST(FileIndex, FilesOfOneTimeAreOneSnapshot) {
   const TemporaryFolder folder;
   folder.write("a.vtp", vtp(1, 1));
