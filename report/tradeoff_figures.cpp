@@ -16,7 +16,8 @@ using validation::Setting;
 
 namespace {
 
-constexpr double zero_line = 10;  // in the strip, from 1 to 100
+constexpr double resolution = 1e-6;  // of the charts: what is below lies in a strip
+constexpr double zero_line = 10;     // in the strip, from 1 to 100
 constexpr double width = 150, left = 21, right = 4, bottom = 11, strip = 6,
                  main_height = 78;  // [mm]
 
@@ -85,7 +86,7 @@ class Chart {
     y.add(tradeoff.tolerance);
     if (tradeoff.noise[p_] > 0) y.add(tradeoff.noise[p_]);
     x_ = log_axis(0.9 * x.lo, 1.1 * x.hi);
-    y_ = log_axis(std::max(y.lo, 1e-9), y.hi);
+    y_ = log_axis(std::max(y.lo, resolution), y.hi);
   }
 
   Figure draw(const std::string& name, const std::string& title, const std::string& caption) {
@@ -114,7 +115,7 @@ class Chart {
     zero.y_label = "";
     zero.x_label = literal("CPU time of the analysis [s]");
     canvas.open(zero);
-    canvas.user_label("0", left - 1.5, bottom + strip / 2, "right");
+    canvas.user_label("< 10⁻⁶", left - 1.5, bottom + strip / 2, "right");
     canvas.draw(layers(canvas, true));
     return drawn(canvas, name, title, caption);
   }
@@ -122,7 +123,7 @@ class Chart {
  private:
   const validation::ProductError& error(const Setting& s) const { return s.errors[p_]; }
   static bool is_zero(const Setting& s, std::size_t p) {
-    return !(s.errors[p].whole.value >= 1e-9);
+    return !(s.errors[p].whole.value >= resolution);
   }
 
   std::vector<Point> points(const std::function<bool(const Setting&)>& has, bool zeros) const {
@@ -185,7 +186,7 @@ class Chart {
     };
     add("tolerance", across(report_.tradeoff.tolerance),
         "using 1:2 with lines lc rgb '#D55E00' lw 0.9 dt (8,4)");
-    if (const double noise = report_.tradeoff.noise[p_]; noise >= 1e-9)
+    if (const double noise = report_.tradeoff.noise[p_]; noise >= resolution)
       add("the window's own interval", across(noise),
           "using 1:2 with lines lc rgb '#0072B2' lw 0.9 dt (2,3)");
   }
@@ -215,7 +216,8 @@ class Chart {
     std::string rows;
     for (const auto& [seconds, value, ci95] : points) {
       if (!(ci95 > 0)) continue;
-      rows += data_row({seconds, std::max(value - ci95, y_.lo)}) +
+      // A bar that reaches zero would reach the floor, whatever its length.
+      rows += data_row({seconds, std::max({value - ci95, value / 3, y_.lo})}) +
               data_row({seconds, std::min(value + ci95, y_.hi)}) + "\n";
     }
     return rows;
@@ -266,7 +268,8 @@ Figure tradeoff_figure(const TradeoffReport& report, std::size_t p) {
       fmt::format(
           "Error of the {} against the finest choice (exact mapping, the study’s cells, every "
           "snapshot, the whole window), with its 95 % interval, against the CPU time of the "
-          "analysis. Strip below: errors of zero, or below 10⁻⁹. Dotted: how well the "
+          "analysis; a bar is cut at a third of its error. Strip below: errors of zero, or below "
+          "10⁻⁶. Dotted: how well the "
           "finest choice itself knows the {} (95 %); a smaller error is no gain.",
           product, product));
 }
