@@ -256,12 +256,13 @@ TEST(FileIndex, GhostPointsOfLegacyFilesAreCountedOnce) {
   };
   folder.write("a.vtk", vtk(1, 4, "vtkGhostType", "0 0 0 1"));
   folder.write("b.vtk", vtk(2, 6, "vtkGhostType", "1 33 0 32 0"));
-  folder.write("d.vtk", vtk(2, 6, "vtkGhostLevels", "2 1 0 0 0"));
-  for (const auto* other : {"b.vtk", "d.vtk"}) {
-    const auto list = pvd({{"0.5", "a.vtk"}, {"0.5", other}});
+  folder.write("d.vtk", vtk(1, 4, "vtkGhostLevels", "0 0 0 1"));
+  folder.write("e.vtk", vtk(2, 6, "vtkGhostLevels", "2 1 0 0 0"));
+  for (const auto& [first, second] : {std::pair{"a.vtk", "b.vtk"}, {"d.vtk", "e.vtk"}}) {
+    const auto list = pvd({{"0.5", first}, {"0.5", second}});
     const auto series = Series::open(folder.write("c.pvd", list));
-    EXPECT_EQ(look(series).ids, (Ids{{1, 2, 3, 4, 5, 6}})) << other;
-    EXPECT_EQ(series.place(0, 3), folder.path(other) + ": point 2");
+    EXPECT_EQ(look(series).ids, (Ids{{1, 2, 3, 4, 5, 6}})) << first;
+    EXPECT_EQ(series.place(0, 3), folder.path(second) + ": point 2");
   }
   EXPECT_EQ(look(Series::open(folder.path("a.vtk"))).ids, (Ids{{1, 2, 3, 4}}));  // by itself
 }
