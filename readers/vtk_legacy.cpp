@@ -220,6 +220,8 @@ class Walk {
       skip_data(type, size, 4, "LOOKUP_TABLE");
     } else if (keyword == "METADATA") {
       metadata();
+    } else if (line[0] == '\0') {
+      fail("NUL bytes behind the data (file system lost the tail?)");
     } else {
       fail("keyword expected, found \"{}\"", printable(line));
     }
@@ -241,7 +243,8 @@ class Walk {
     std::int64_t value = 0;
     bool overflow = false;
     if (!parse_integer(word, value, overflow))
-      fail("{}: expected a count, found \"{}\"", what, printable(word));
+      fail("{}: expected a count, found \"{}\"", *what == '\0' ? "an array" : what,
+           printable(word));
     if (value < 0) fail("{}: negative count {}", what, value);
     return value;
   }
