@@ -207,6 +207,8 @@ class LegacyWalk : private LegacyData {
       skip_data(type, size, 4, "LOOKUP_TABLE");
     } else if (keyword == "METADATA") {
       metadata();
+    } else if (line[0] == '\0') {
+      fail("NUL bytes behind the data (file system lost the tail?)");
     } else {
       fail("keyword expected, found \"{}\"", printable(line));
     }
