@@ -178,6 +178,18 @@ std::optional<double> one_density(const readers::LiggghtsLog& log) {
   return log.density.begin()->second;
 }
 
+/// A density of the study that is not the log's: one of them is wrong, or the run was scaled.
+void compare_density(const readers::LiggghtsLog& log, RunSetup& setup) {
+  constexpr double fair = 0.01;
+  for (const auto& [type, logged] : log.density) {
+    const auto own = setup.density.of_type.find(type);
+    const auto told = own != setup.density.of_type.end() ? own->second : setup.density.all;
+    if (told && std::abs(*told - logged) > fair * logged)
+      setup.problems.push_back(
+          fmt::format("density of type {} is {} kg/m3, {} says {}", type, *told, log.path, logged));
+  }
+}
+
 void set_density(const readers::Series& series, const readers::LiggghtsLog& log, RunSetup& setup) {
   using From = RunSetup::Density;
   const auto& names = series.columns();
@@ -188,6 +200,7 @@ void set_density(const readers::Series& series, const readers::LiggghtsLog& log,
   setup.density = setup.settings.density;
   if (setup.density.given()) {
     setup.density_from = From::by_type;
+    compare_density(log, setup);
   } else if (in_dumps(series, "density")) {
     setup.density_from = From::density_column;
   } else if (in_dumps(series, "mass") && !bodies) {
@@ -267,6 +280,25 @@ void set_bubbles(RunSetup& setup) {
     setup.bubble_bands.push_back({height, width, layer_weights(setup, height, width)});
 }
 
+/// What the grid is too coarse for; docs/stability.md has the maps.
+void doubt_grid(RunSetup& setup) {
+  const auto& settings = setup.settings;
+  const auto& grid = setup.grid;
+  constexpr int fewest_cells = 5;  // two walls, a core, and what is between
+  if (settings.wanted.lateral && grid.cells[lateral] < fewest_cells)
+    setup.problems.push_back(
+        fmt::format("{} cells across: too few for a lateral profile to tell walls from core",
+                    grid.cells[lateral]));
+  double widest = std::max(grid.width(lateral), grid.width(up));
+  if (!grid.depth_averaged()) widest = std::max(widest, grid.width(depth));
+  if (settings.mapping == "gaussian" && settings.gaussian_width > 0 &&
+      settings.gaussian_width < widest * (1 - 1e-9))
+    setup.problems.push_back(
+        fmt::format("gaussian_width of {:g} m is narrower than a cell ({:g} m): holdups jump as "
+                    "particles cross faces",
+                    settings.gaussian_width, widest));
+}
+
 /// Times on disk are sums of steps: 0.3 s may be written 0.29999999999999998 [s].
 double rounding_of(const std::vector<double>& times) {
   double gap = INFINITY;
@@ -330,7 +362,9 @@ RunSetup set_up(const RunSettings& settings, const readers::Series& series) {
   set_density(series, log, setup);
   set_heights(setup);
   set_bubbles(setup);
-  setup.kernel = make_kernel(settings.mapping, setup.grid);
+  setup.kernel =
+      make_kernel(settings.mapping, setup.grid, {.gaussian_width = settings.gaussian_width});
+  doubt_grid(setup);
 
   const auto axes = bed_axes(settings);
   const auto name = [&](const char* prefix, int k) {

@@ -106,6 +106,7 @@ struct RunSettings {
   std::vector<SpeciesRule> species;
   std::optional<std::array<double, 2>> average;  ///< from, to [s]; else `auto`
   std::string mapping = "exact";
+  double gaussian_width = 0;  ///< of that kernel [m]; 0: the widest side of a cell
 
   std::vector<double> heights;  ///< [m]; empty: quarters of the domain
   double band = 0;              ///< [m]; 0: two cells

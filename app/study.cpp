@@ -192,6 +192,7 @@ void read_scene(Table& table, RunSettings& settings) {
     }
   }
   settings.average = window(table, settings);
+  settings.gaussian_width = table.positive("gaussian_width").value_or(settings.gaussian_width);
   if (const auto every = table.integer("every")) {
     if (*every < 1 || *every > 1'000'000)
       table.fail(*table.find("every"), "{}: expected a whole number from 1 to 1000000, found {}",
@@ -368,7 +369,13 @@ Study read_study(const std::string& path) {
     scene->finish();
   }
   read_products(table, shared);
-  table.find("tradeoff");  // for another command
+  if (auto tradeoff = table.table("tradeoff")) {
+    auto& wishes = study.tradeoff;
+    wishes.tolerance = tradeoff->positive("tolerance").value_or(wishes.tolerance);
+    wishes.products = tradeoff->texts("products").value_or(std::vector<std::string>{});
+    if (const auto* node = tradeoff->find("products")) wishes.line = node->source().begin.line;
+    tradeoff->finish();
+  }
   study.checks = validation::read_checks(table);
   auto runs = table.tables("run");
   const auto folder = std::filesystem::path(path).parent_path();

@@ -123,8 +123,10 @@ std::vector<int> shuffled_species(const Scene& scene, Random& random) {
 
 std::vector<InitialParticle> initial_particles(const Scene& scene) {
   const auto& p = scene.particles;
-  if (p.arrangement == Arrangement::single)
-    return {{0, scene.species[0].diameter, p.position}};
+  if (p.arrangement == Arrangement::single) return {{0, scene.species[0].diameter, p.position}};
+  constexpr std::int64_t most = 20'000'000;  // their file has 1.5 GB
+  if (p.number > most)
+    throw InputError("particles: expected {} at most in a deck, found {}", most, p.number);
   const auto sites = sites_of(scene);
   require_room(scene, sites);
   Random random(p.seed);
@@ -133,8 +135,8 @@ std::vector<InitialParticle> initial_particles(const Scene& scene) {
   particles.reserve(species.size());
   for (std::size_t i = 0; i < species.size(); ++i) {
     const auto& s = scene.species[static_cast<std::size_t>(species[i])];
-    const double d = s.spread > 0 ? random.between(s.diameter - s.spread, s.diameter + s.spread)
-                                  : s.diameter;
+    const double d =
+        s.spread > 0 ? random.between(s.diameter - s.spread, s.diameter + s.spread) : s.diameter;
     // Particle i of N on site floor(i M / N): the empty sites are spread evenly. A bed fills up.
     auto site = static_cast<std::int64_t>(i);
     if (p.arrangement == Arrangement::uniform)

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 
 #include "cases/merge_files.hpp"
 #include "cases/scale_scene.hpp"
@@ -35,22 +36,29 @@ void read_gas(Table& t, Scene& scene) {
   scene.gas = gas;
 }
 
-Species read_species(Table& t, std::size_t index, bool only) {
-  Species s;
+/// What a species does not say of itself is as in the one before.
+Species read_species(Table& t, const Species& before, std::size_t index, bool only) {
+  Species s = before;
   s.name = t.text("name").value_or(fmt::format("{}", index + 1));
-  s.diameter = needed(t, "diameter", "m");
-  s.density = needed(t, "density", "kg/m3");
-  s.spread = at_least_zero(t, "spread", 0);
+  s.diameter = t.positive("diameter").value_or(s.diameter);
+  s.density = t.positive("density").value_or(s.density);
+  if (index == 0) {
+    needed(t, "diameter", "m");
+    needed(t, "density", "kg/m3");
+  }
+  s.spread = at_least_zero(t, "spread", s.spread);
   if (s.spread >= s.diameter)
     t.fail(*t.find("spread"), "{}: expected less than the diameter {}, found {}", t.key("spread"),
            s.diameter, s.spread);
   if (!only && t.find("fraction") == nullptr)
-    t.fail(t.raw(), "{} is missing: expected the share of the solids' volume, as there are several "
-           "species", t.key("fraction"));
+    t.fail(t.raw(),
+           "{} is missing: expected the share of the solids' volume, as there are several "
+           "species",
+           t.key("fraction"));
   s.fraction = up_to(t, "fraction", 1, true, 1);
-  s.heat_capacity = t.positive("heat_capacity").value_or(0);
-  s.conductivity = t.positive("conductivity").value_or(0);
-  s.source = t.number("source").value_or(0);
+  s.heat_capacity = t.positive("heat_capacity").value_or(s.heat_capacity);
+  s.conductivity = t.positive("conductivity").value_or(s.conductivity);
+  s.source = t.number("source").value_or(s.source);
   t.finish();
   return s;
 }
@@ -62,7 +70,8 @@ void read_all_species(Table& root, Scene& scene) {
     root.fail(*root.find("species"), "species: expected at most 16, found {}", tables.size());
   double sum = 0;
   for (std::size_t i = 0; i < tables.size(); ++i) {
-    scene.species.push_back(read_species(tables[i], i, tables.size() == 1));
+    scene.species.push_back(
+        read_species(tables[i], i == 0 ? Species{} : scene.species.back(), i, tables.size() == 1));
     sum += scene.species.back().fraction;
   }
   if (std::abs(sum - 1) > 1e-9)
@@ -90,10 +99,12 @@ std::int64_t read_number(Table& t, const Scene& scene) {
     if (key == "holdup") number = *value / mean_holdup(one) * 1e6;
   }
   if (!number)
-    t.fail(t.raw(), "particles.number is missing: expected it, or particles.mass [kg], or "
+    t.fail(t.raw(),
+           "particles.number is missing: expected it, or particles.mass [kg], or "
            "particles.holdup [-]");
   if (!(std::round(*number) >= 1 && *number <= most))
-    t.fail(*t.find(from), "{}: expected 1 to {:g} particles, found {:g}", t.key(from), most, *number);
+    t.fail(*t.find(from), "{}: expected 1 to {:g} particles, found {:g}", t.key(from), most,
+           *number);
   return std::llround(*number);
 }
 
@@ -103,11 +114,19 @@ void read_particles(Table& t, Scene& scene) {
   p.lattice = counts_of(t, "lattice");
   p.position = vector_of(t, "position", {});
   p.velocity = vector_of(t, "velocity", {});
+  const double speed = at_least_zero(t, "speed", 0), angle = up_to(t, "angle", 90, false, 0);
+  if (t.find("speed") != nullptr)  // downwards, so many degrees from the vertical towards x
+    p.velocity = {speed * std::sin(angle * std::numbers::pi / 180), 0,
+                  -speed * std::cos(angle * std::numbers::pi / 180)};
   p.fixed = t.boolean("fixed").value_or(false);
   p.temperature = t.positive("temperature").value_or(p.temperature);
   const auto seed = t.integer("seed").value_or(1);
   if (seed < 0) t.fail(*t.find("seed"), "particles.seed: expected at least 0, found {}", seed);
   p.seed = static_cast<std::uint64_t>(seed);
+  const bool counted = p.arrangement == Arrangement::bed || p.arrangement == Arrangement::uniform;
+  for (const auto* key : {"number", "mass", "holdup"})
+    if (const auto* node = t.find(key); node != nullptr && !counted)
+      t.fail(*node, "{}: expected with arrangement \"bed\" or \"uniform\" only", t.key(key));
   if (p.arrangement == Arrangement::single) {
     p.number = 1;
     if (t.find("position") == nullptr)
@@ -127,8 +146,7 @@ Contact read_contact(Table& t, const Contact& otherwise) {
   c.young = t.positive("young").value_or(c.young);
   c.poisson = up_to(t, "poisson", 0.5, false, c.poisson);
   c.restitution = up_to(t, "restitution", 1, true, c.restitution);
-  c.tangential_restitution =
-      up_to(t, "tangential_restitution", 1, true, c.tangential_restitution);
+  c.tangential_restitution = up_to(t, "tangential_restitution", 1, true, c.tangential_restitution);
   c.friction = at_least_zero(t, "friction", c.friction);
   return c;
 }
@@ -149,7 +167,7 @@ void read_contacts(Table& t, Scene& scene) {
 
 void read_inlet(Table& t, Scene& scene) {
   auto& in = scene.inlet;
-  in.particles = choice(t, "particles", supply_words, Supply::none);
+  in.particles = choice(t, "particles", supply_words, Supply::closed);
   in.place = choice(t, "place", inlet_words, Place::bottom);
   in.velocity = vector_of(t, "velocity", {});
   in.from = at_least_zero(t, "from", 0);
@@ -181,8 +199,9 @@ void read_outlet(Table& t, Scene& scene) {
 void whole_ratio(Table& t, const char* longer, double a, const char* shorter, double b) {
   const double ratio = a / b;
   if (ratio < 1 - 1e-9 || ratio > 1e9 || std::abs(ratio - std::round(ratio)) > 1e-6 * ratio)
-    t.fail(*t.find(longer), "numerics.{}: expected a whole number of numerics.{} ({} s), found {} s",
-           longer, shorter, b, a);
+    t.fail(*t.find(longer),
+           "numerics.{}: expected a whole number of numerics.{} ({} s), found {} s", longer,
+           shorter, b, a);
 }
 
 void read_numerics(Table& t, Scene& scene) {
@@ -227,7 +246,7 @@ void need_heat(const Table& root, const Scene& scene) {
 
 Scene read_tables(Table& root) {
   Scene scene;
-  scene.title = root.text("title").value_or("");
+  scene.title = one_line(root.text("title").value_or(""));
   scene.notes = root.texts("notes").value_or(std::vector<std::string>{});
   scene.gravity = at_least_zero(root, "gravity", scene.gravity);
   scene.smallest_cluster = root.positive("smallest_cluster").value_or(scene.smallest_cluster);
@@ -268,7 +287,11 @@ Scene read_scene(const std::string& path) {
       t.fail(node != nullptr ? *node : t.raw(),
              "scale.condition: expected \"a\", \"b\", \"c\" or \"d\", found \"{}\"", letter);
     }
-    scene = scale_scene(scene, factor, physics::mapping_condition(letter));
+    try {
+      scene = scale_scene(scene, factor, physics::mapping_condition(letter));
+    } catch (const InputError& error) {  // in its words, with the place
+      t.fail(*t.find("factor"), "{}", error.what());
+    }
   });
   root.finish();
   return scene;

@@ -17,9 +17,9 @@ int rounded(double cells) { return std::max(1, static_cast<int>(std::lround(cell
 /// physics/scaling.hpp speaks in ratios of units, users in quantities.
 std::string name_of(std::string_view group) {
   static const std::map<std::string_view, std::string> names{
-      {"N_gamma", "N_gamma_n"},         {"N_rho", "density ratio"},
-      {"Eu", "pressure drop"},          {"t_c u/H", "contact time"},
-      {"overlap/d", "overlap"},         {"cluster cells", "cells in the smallest cluster"}};
+      {"N_gamma", "N_gamma_n"}, {"N_rho", "density ratio"},
+      {"Eu", "pressure drop"},  {"t_c u/H", "contact time"},
+      {"overlap/d", "overlap"}, {"cluster cells", "cells in the smallest cluster"}};
   const auto known = names.find(group);
   return known == names.end() ? std::string(group) : known->second;
 }
@@ -41,6 +41,8 @@ void remark_on_heat(const Scene& scene, double K, ScalingReport& report) {
 }  // namespace
 
 Scene scale_scene(const Scene& scene, double K, physics::MappingCondition condition) {
+  if (!(K >= 0.01 && K <= 100))
+    throw InputError("scaling factor: expected a number from 0.01 to 100, found {:g}", K);
   const auto factors = physics::scaling_factors(K, condition);
   Scene scaled = scene;
   scaled.title = fmt::format("{}{}K = {:g}, {}", scene.title, scene.title.empty() ? "" : ", ", K,
@@ -66,8 +68,7 @@ Scene scale_scene(const Scene& scene, double K, physics::MappingCondition condit
   auto& grid = scaled.numerics.grid;
   const std::array<double, 3> extent{1, factors.depth, 1};
   if (grid[0] > 0)
-    for (std::size_t i = 0; i < 3; ++i)
-      grid[i] = rounded(grid[i] * extent[i] / factors.cell_edge);
+    for (std::size_t i = 0; i < 3; ++i) grid[i] = rounded(grid[i] * extent[i] / factors.cell_edge);
   return scaled;
 }
 
@@ -78,8 +79,8 @@ ScalingReport scaling_report(const Scene& scene, double K, physics::MappingCondi
   if (complete)
     for (const auto& g : physics::groups_under_scaling(as_scaled_scene(scene, 0), K, condition,
                                                        scene.smallest_cluster))
-      report.groups.push_back({name_of(g.name), std::string(g.definition), g.value, g.scaled_value,
-                               g.ratio, g.kept});
+      report.groups.push_back(
+          {name_of(g.name), std::string(g.definition), g.value, g.scaled_value, g.ratio, g.kept});
   else
     report.remarks.push_back("without gas, grid and gravity there are no groups to compare");
   const auto factors = physics::scaling_factors(K, condition);

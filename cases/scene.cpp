@@ -20,7 +20,8 @@ double mean_volume(const Species& s) {
 }  // namespace
 
 double Contact::tangential_stiffness() const {
-  return normal_stiffness * physics::tangential_stiffness_ratio(restitution, tangential_restitution);
+  return normal_stiffness *
+         physics::tangential_stiffness_ratio(restitution, tangential_restitution);
 }
 
 std::vector<std::int64_t> species_numbers(const Scene& scene) {
@@ -50,8 +51,8 @@ double solids_mass(const Scene& scene) {
   const auto numbers = species_numbers(scene);
   double mass = 0;
   for (std::size_t i = 0; i < numbers.size(); ++i)
-    mass += static_cast<double>(numbers[i]) * mean_volume(scene.species[i]) *
-            scene.species[i].density;
+    mass +=
+        static_cast<double>(numbers[i]) * mean_volume(scene.species[i]) * scene.species[i].density;
   return mass;
 }
 
@@ -113,6 +114,25 @@ double inlet_holdup(const Scene& scene) {
          (mean_density(scene) * velocity * inlet_area(scene));
 }
 
+std::pair<Vector, Vector> entry_box(const Scene& scene) {
+  const auto& g = scene.geometry;
+  const auto& in = scene.inlet;
+  constexpr double batch = 1e-3;   // s of feed that must find room at once
+  constexpr double crowded = 0.2;  // holdup at which random places are still found quickly
+  double thickness = 3 * largest_diameter(scene);
+  if (in.particles == Supply::feed)
+    thickness = std::max(thickness, in.flux * cross_section(scene) * batch /
+                                        (mean_density(scene) * crowded * inlet_area(scene)));
+  if (in.place == Place::bottom) {
+    if (in.particles == Supply::inventory)  // as much room as half a second of leaving may need
+      thickness = std::max(thickness, std::min(0.03, g.height / 10));
+    return {{0, 0, 0}, {g.width, g.depth, std::min(thickness, g.height)}};
+  }
+  thickness = std::min(thickness, g.width);
+  const double x = in.place == Place::left ? 0 : g.width - thickness;
+  return {{x, 0, in.from}, {x + thickness, g.depth, in.to}};
+}
+
 double mean_density(const Scene& scene) { return solids_mass(scene) / solids_volume(scene); }
 
 physics::ScaledScene as_scaled_scene(const Scene& scene, std::size_t species) {
@@ -127,21 +147,11 @@ physics::ScaledScene as_scaled_scene(const Scene& scene, std::size_t species) {
   const double damping = physics::damping_coefficient(
       stiffness, physics::sphere_mass(s.sphere()) / 2, contact.restitution);
   const auto gas = scene.gas.value_or(GasPhase{});
-  return {s.diameter,
-          s.density,
-          static_cast<double>(species_numbers(scene)[species]),
-          gas.density,
-          gas.viscosity,
-          gas.velocity,
-          scene.gravity,
-          stiffness,
-          damping,
-          g.width,
-          g.depth,
-          g.height,
-          cell[0],
-          cell[1],
-          cell[2]};
+  return {s.diameter,    s.density,     static_cast<double>(species_numbers(scene)[species]),
+          gas.density,   gas.viscosity, gas.velocity,
+          scene.gravity, stiffness,     damping,
+          g.width,       g.depth,       g.height,
+          cell[0],       cell[1],       cell[2]};
 }
 
 }  // namespace bedscope::cases

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "physics/drag.hpp"
@@ -88,17 +89,17 @@ struct Contacts {
 enum class Place { bottom, left, right, top };
 
 enum class Supply {
-  none,       ///< what leaves is gone
+  closed,     ///< nothing leaves: the outlet is a sieve
   inventory,  ///< what leaves is put back
   feed,       ///< a constant mass flow; the inventory is free
 };
 
 struct Inlet {
-  Supply particles = Supply::none;
-  double flux = 0;             ///< of the feed, over the cross-section of the riser [kg/m2/s]
+  Supply particles = Supply::closed;
+  double flux = 0;              ///< of the feed, over the cross-section of the riser [kg/m2/s]
   Place place = Place::bottom;  ///< where particles enter
-  double from = 0, to = 0;     ///< of the slit in a side wall [m]
-  Vector velocity{};           ///< with which they enter [m/s]
+  double from = 0, to = 0;      ///< of the slit in a side wall [m]
+  Vector velocity{};            ///< with which they enter [m/s]
 };
 
 enum class Head { box, bend, rough_bend };
@@ -116,7 +117,7 @@ struct Walls {
 };
 
 struct Numerics {
-  std::array<int, 3> grid{};  ///< gas cells of the straight part
+  std::array<int, 3> grid{};                               ///< gas cells of the straight part
   double dem_step = 0, gas_step = 0, output = 0, end = 0;  ///< [s]
   double average_from = 0;                                 ///< [s]
 };
@@ -165,6 +166,11 @@ double inlet_area(const Scene& scene);
 double inlet_velocity(const Scene& scene);
 /// Holdup with which the feed must come in: flux / (density velocity), of the area.
 double inlet_holdup(const Scene& scene);
+
+/// The box in which particles enter, low and high corner [m]: above the bottom or behind the slit,
+/// at least 3 largest diameters thick, for a feed so thick that a millisecond of it has a holdup of
+/// 0.2 at most.
+std::pair<Vector, Vector> entry_box(const Scene& scene);
 
 /// By `density` for a mixture: of its volume [kg/m3].
 double mean_density(const Scene& scene);

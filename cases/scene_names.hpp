@@ -20,7 +20,7 @@ inline constexpr Words<Arrangement, 4> arrangement_words{{{"bed", Arrangement::b
 inline constexpr Words<ContactModel, 2> contact_words{
     {{"linear", ContactModel::linear}, {"hertz", ContactModel::hertz}}};
 inline constexpr Words<Supply, 3> supply_words{
-    {{"none", Supply::none}, {"inventory", Supply::inventory}, {"feed", Supply::feed}}};
+    {{"closed", Supply::closed}, {"inventory", Supply::inventory}, {"feed", Supply::feed}}};
 inline constexpr Words<Place, 3> inlet_words{
     {{"bottom", Place::bottom}, {"left", Place::left}, {"right", Place::right}}};
 inline constexpr Words<Place, 3> outlet_words{

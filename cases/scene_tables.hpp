@@ -22,7 +22,8 @@ T choice(Table& table, std::string_view key, const Words<T, N>& words, T otherwi
     if (word == *text) return value;
     known += fmt::format("{}\"{}\"", known.empty() ? "" : ", ", word);
   }
-  table.fail(*table.find(key), "{}: expected one of {}, found \"{}\"", table.key(key), known, *text);
+  table.fail(*table.find(key), "{}: expected one of {}, found \"{}\"", table.key(key), known,
+             *text);
 }
 
 /// A number that must be there and be above 0.

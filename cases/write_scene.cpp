@@ -115,7 +115,7 @@ void write_contacts(Writer& w, const Contacts& c) {
 void write_boundaries(Writer& w, const Scene& scene) {
   const auto& in = scene.inlet;
   w.table("inlet");
-  w.word("particles", in.particles, supply_words, Supply::none);
+  w.word("particles", in.particles, supply_words, Supply::closed);
   w.value("flux", in.flux, 0);
   w.word("place", in.place, inlet_words, Place::bottom);
   w.value("from", in.from, 0);

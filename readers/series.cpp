@@ -126,7 +126,9 @@ void Series::open_unit(const DumpUnit& unit) {
   particles.indexed.clear();
   for (std::size_t k = 0; k < unit.files.size(); ++k) {
     const auto& path = unit.files[k];
-    auto scan = scan_file(*form_, path, unit.last, options_.index);
+    // Only a form whose glance tells all tells the copies of other parts' particles.
+    const bool thorough = unit.last || (unit.files.size() > 1 && !form_->glance_tells);
+    auto scan = scan_file(*form_, path, thorough, options_.index);
     if (!scan.not_particles.empty()) {
       left_out_.push_back(fmt::format("{}: {}", path, scan.not_particles));
       continue;

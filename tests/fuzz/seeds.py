@@ -371,6 +371,11 @@ write("foam_table", "cut", parts({"0/p": pressures + "0.3 1.2e5"}))
 write("foam_table", "back", parts({"0/p": pressures + "0.15 1e5 9e4 -1e+300\n"}))
 write("foam_table", "set", parts({"line.csv": "x,p\n0,1\n1,2\n"}))
 write("foam_table", "gzip", parts({"0/p": gzip.compress(patch.encode(), mtime=0)}))
+# -- gas out of VTK -------------------------------------------------------------------------------
+
+for path in sorted((data / "vtk_gas").rglob("*.vt[uk]")):
+    if path.stat().st_size < 40000:
+        write("vtk_gas", "_".join(path.relative_to(data / "vtk_gas").parts), path.read_bytes())
 
 # -- ours -----------------------------------------------------------------------------------------
 

@@ -236,6 +236,37 @@ TEST(FileIndex, GhostPointsOfPiecesAreCountedOnce) {
   EXPECT_EQ(look(Series::open(folder.path("a.vtp"))).ids, (Ids{{1, 2, 3, 4}}));  // by itself
 }
 
+// Legacy files have no index of pieces of their own: a .pvd names them.
+TEST(FileIndex, GhostPointsOfLegacyFilesAreCountedOnce) {
+  const TemporaryFolder folder;
+  const auto vtk = [](int first, int last, const std::string& array, const std::string& values) {
+    std::string points, cells, ids;
+    for (int id = first; id <= last; ++id) {
+      points += fmt::format("{} 0 0\n", id);
+      cells += fmt::format("1 {}\n", id - first);
+      ids += fmt::format("{} ", id);
+    }
+    const int n = last - first + 1;
+    return fmt::format(
+        "# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\nPOINTS {0} float\n{1}VERTICES {0} "
+        "{2}\n{3}POINT_DATA {0}\nSCALARS {4} unsigned_char 1\nLOOKUP_TABLE default\n{5}\nFIELD "
+        "FieldData 2\nid 1 {0} int\n{6}\nradius 1 {0} float\n{7}\n",
+        n, points, 2 * n, cells, array, values, ids,
+        fmt::join(std::vector<double>(static_cast<std::size_t>(n), 0.5), " "));
+  };
+  folder.write("a.vtk", vtk(1, 4, "vtkGhostType", "0 0 0 1"));
+  folder.write("b.vtk", vtk(2, 6, "vtkGhostType", "1 33 0 32 0"));
+  folder.write("d.vtk", vtk(1, 4, "vtkGhostLevels", "0 0 0 1"));
+  folder.write("e.vtk", vtk(2, 6, "vtkGhostLevels", "2 1 0 0 0"));
+  for (const auto& [first, second] : {std::pair{"a.vtk", "b.vtk"}, {"d.vtk", "e.vtk"}}) {
+    const auto list = pvd({{"0.5", first}, {"0.5", second}});
+    const auto series = Series::open(folder.write("c.pvd", list));
+    EXPECT_EQ(look(series).ids, (Ids{{1, 2, 3, 4, 5, 6}})) << first;
+    EXPECT_EQ(series.place(0, 3), folder.path(second) + ": point 2");
+  }
+  EXPECT_EQ(look(Series::open(folder.path("a.vtk"))).ids, (Ids{{1, 2, 3, 4}}));  // by itself
+}
+
 TEST(FileIndex, FilesOfOneTimeAreOneSnapshot) {
   const TemporaryFolder folder;
   folder.write("a.vtp", vtp(1, 1));
@@ -272,6 +303,25 @@ TEST(FileIndex, OfALastSnapshotThePieceThatIsNotThereYetLeavesItOut) {
   fs::remove(folder.path("a_10_1.vtp"));
   EXPECT_NE(error_of([&] { Series::open(folder.path()); }).find("a_10_1.vtp not found"),
             std::string::npos);
+}
+
+TEST(FileIndex, AnIndexOfTheLastSnapshotThatIsNotWholeYetLeavesItOut) {
+  const TemporaryFolder folder;
+  for (const int step : {10, 20}) {
+    folder.write(fmt::format("a_{}_0.vtp", step), vtp(1, 2));
+    folder.write(fmt::format("a_{}.pvtp", step), pvtp({fmt::format("a_{}_0.vtp", step)}));
+  }
+  const auto whole = bytes_of(folder.path("a_20.pvtp"));
+  for (const auto& text : {whole.substr(0, 40), whole.substr(0, whole.size() - 20)}) {
+    folder.write("a_20.pvtp", text);
+    const auto series = Series::open(folder.path());
+    EXPECT_EQ(look(series).steps, (std::vector<std::int64_t>{10}));
+    EXPECT_TRUE(series.cut());
+    EXPECT_NE(all(series.problems()).find("a_20.pvtp: "), std::string::npos);
+  }
+  folder.write("a_20.pvtp", whole);
+  folder.write("a_10.pvtp", whole.substr(0, 40));
+  EXPECT_NE(error_of([&] { Series::open(folder.path()); }).find("a_10.pvtp: "), std::string::npos);
 }
 
 TEST(FileIndex, ErrorsNameTheLineOfTheIndex) {
