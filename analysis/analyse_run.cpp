@@ -242,10 +242,12 @@ struct LiveAnalysis::State {
       (complete ? *complete : *pass.sums).add(product, weights[i]);
       if (options.progress) options.progress(i + 1, all);
     };
+    auto first = pass.snapshots();
     if (auto last = std::exchange(pass.last, std::nullopt);
-        last && last->snapshot == pass.snapshots() && ids_wanted(last->snapshot, all))
+        last && last->snapshot == first && ids_wanted(last->snapshot, all)) {
       take(*last);
-    const auto first = pass.snapshots() + (complete ? 1 : 0);
+      ++first;
+    }
     pass.read_from = std::min(pass.read_from, first);
     news = news || first < all;
     for_each_product(*setup, *series, gas_run(), first, all, threads(), [&](Item& item) {

@@ -10,7 +10,7 @@
 namespace bedscope::analysis {
 namespace {
 
-constexpr std::string_view kind = "bedscope state of a run, version 1\n";
+constexpr std::string_view kind = "bedscope state of a run, version 2\n";
 
 /// The names make the compiler ask about each setting that is added.
 template <class Archive>

@@ -95,16 +95,9 @@ void RunSums::profiles_of(const Species& species, const Window& window, SpeciesR
   const auto heights = setup_->heights.size();
 
   // One sample a leaf: its mean over the time that it stands for.
-  const auto kept = profiles_.leaves();
-  std::vector<const WeightedSum*> leaves;
+  const auto leaves = samples_of(profiles_, window);
   std::vector<double> weights;
-  for (const auto& [number, sum] : kept) {
-    if (number * profiles_.size() < window.first && setup_->settings.average == std::nullopt)
-      continue;
-    if (sum.weight <= 0) continue;
-    leaves.push_back(&sum);
-    weights.push_back(sum.weight);
-  }
+  for (const auto& sum : leaves) weights.push_back(sum.weight);
   const auto density = densities();
   const std::size_t n = leaves.size();
   std::vector<double> holdup(n), moved(n), flux(n);
@@ -113,8 +106,8 @@ void RunSums::profiles_of(const Species& species, const Window& window, SpeciesR
     for (std::size_t leaf = 0; leaf < n; ++leaf) {
       holdup[leaf] = moved[leaf] = flux[leaf] = 0;
       for (const std::size_t s : species.slots) {
-        if (s >= leaves[leaf]->slots.size() || leaves[leaf]->slots[s].empty()) continue;
-        const double* const q = leaves[leaf]->slots[s].data() + at;
+        if (s >= leaves[leaf].slots.size() || leaves[leaf].slots[s].empty()) continue;
+        const double* const q = leaves[leaf].slots[s].data() + at;
         const double per_weight = 1 / weights[leaf];
         holdup[leaf] += q[0] * per_weight;
         moved[leaf] += q[1] * per_weight;
@@ -193,25 +186,63 @@ void RunSums::fields_of(const Species& species, const WeightedSum& sum,
   }
 }
 
+std::vector<WeightedSum> RunSums::samples_of(const Leaves& sums, const Window& window) const {
+  std::vector<WeightedSum> found;
+  for (auto& [number, sum] : sums.leaves()) {
+    const bool before = number * sums.size() < window.first && !setup_->settings.average;
+    if (!before && sum.weight > 0) found.push_back(sum);
+  }
+  return found;
+}
+
+namespace {
+
+/// Sum over the slots of one quantity, a sample each; whatever a sample lacks is 0.
+std::vector<double> series_of(const std::vector<WeightedSum>& samples,
+                              const std::vector<std::size_t>& slots, std::size_t at) {
+  std::vector<double> values;
+  for (const auto& sample : samples) {
+    double sum = 0;
+    for (const std::size_t s : slots)
+      if (s < sample.slots.size() && !sample.slots[s].empty()) sum += sample.slots[s][at];
+    values.push_back(sum / sample.weight);
+  }
+  return values;
+}
+
+std::vector<double> weights_of(const std::vector<WeightedSum>& samples) {
+  std::vector<double> weights;
+  for (const auto& sample : samples) weights.push_back(sample.weight);
+  return weights;
+}
+
+}  // namespace
+
 void RunSums::pdf_of(const Species& species, const Window& window, SpeciesResult& result) const {
   if (!setup_->has_temperature || !setup_->settings.temperature) return;
   const auto bins = static_cast<std::size_t>(setup_->settings.temperature_bins);
-  const auto sum =
-      histograms_.total(setup_->settings.average ? 0 : window.first / histograms_.size());
-  std::vector<double> density(bins, 0);
-  double all = 0;  // particles with a temperature, inside the range and outside
-  for (std::size_t i = window.first; i < window.first + window.snapshots; ++i)
-    for (const std::size_t s : species.slots)
-      if (s < samples_[i].slots.size())
-        all += samples_[i].weight * static_cast<double>(samples_[i].slots[s].temperature.particles);
-  for (const std::size_t s : species.slots)
-    if (s < sum.slots.size() && !sum.slots[s].empty())
-      for (std::size_t b = 0; b < bins; ++b) density[b] += sum.slots[s][b];
-  const double inside = std::accumulate(density.begin(), density.end(), 0.);
-  if (species.name == "all" && all > 0 && inside < all * (1 - 1e-12))
-    result.temperature_outside = 1 - inside / all;
-  for (auto& value : density) value *= static_cast<double>(bins) / all;
-  result.temperature_pdf = std::move(density);
+  const auto samples = samples_of(histograms_, window);
+  const auto weights = weights_of(samples);
+  const auto all = series_of(samples, species.slots, bins);  // inside the range and outside
+  double inside = 0;
+  for (std::size_t b = 0; b < bins; ++b) {
+    const auto share = estimate_ratio(series_of(samples, species.slots, b), all, weights);
+    result.temperature_pdf.push_back(share.value * static_cast<double>(bins));
+    result.temperature_pdf_ci95.push_back(share.ci95 * static_cast<double>(bins));
+    inside += share.value;
+  }
+  if (species.name == "all" && inside < 1 - 1e-12) result.temperature_outside = 1 - inside;
+}
+
+void RunSums::axial_temperature_of(const Species& species, const Window& window,
+                                   SpeciesResult& result) const {
+  if (!setup_->has_temperature) return;
+  const auto samples = samples_of(warmth_, window);
+  const auto weights = weights_of(samples);
+  for (std::size_t k = 0; k < static_cast<std::size_t>(setup_->grid.cells[up]); ++k)
+    result.axial_temperature.push_back(estimate_ratio(series_of(samples, species.slots, 2 * k + 1),
+                                                      series_of(samples, species.slots, 2 * k),
+                                                      weights));
 }
 
 void RunSums::bed_of(const Window& window, RunResult& result) const {
@@ -341,6 +372,7 @@ RunResult RunSums::finish(const readers::Series& series, const Window& window) &
       profiles_of(kind, window, found, result.problems);
       fields_of(kind, sum, found);
       pdf_of(kind, window, found);
+      axial_temperature_of(kind, window, found);
     }
     found.type = kind.name;
     inventory_of(kind, result);

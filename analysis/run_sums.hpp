@@ -41,7 +41,7 @@ class RunSums {
   /// what is missing, given dumps that show it.
   template <class Archive>
   void archive(Archive& ar) {
-    ar(slots_, fields_, profiles_, histograms_, samples_, occurrence_, clusters_, tracker_,
+    ar(slots_, fields_, profiles_, histograms_, warmth_, samples_, occurrence_, clusters_, tracker_,
        bubbles_, sensitivity_, flaws_, without_temperature_, bytes_read_);
   }
 
@@ -81,13 +81,17 @@ class RunSums {
                    std::vector<std::string>& doubts) const;
   void fields_of(const Species& species, const WeightedSum& sum, SpeciesResult& result) const;
   void pdf_of(const Species& species, const Window& window, SpeciesResult& result) const;
+  void axial_temperature_of(const Species& species, const Window& window,
+                            SpeciesResult& result) const;
+  /// The sums of the window that were kept apart, one sample each for errors.
+  std::vector<WeightedSum> samples_of(const Leaves& sums, const Window& window) const;
   void bed_of(const Window& window, RunResult& result) const;
   void means_of(const Window& window, RunResult& result) const;
 
   const RunSetup* setup_;
   bool keep_contours_;
   std::vector<SlotKey> slots_;
-  Leaves fields_, profiles_, histograms_;
+  Leaves fields_, profiles_, histograms_, warmth_;
   std::vector<Sample> samples_;
   std::vector<OccurrenceSample> occurrence_;
   std::vector<Cluster> clusters_;

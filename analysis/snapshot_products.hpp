@@ -95,13 +95,14 @@ struct SlotProduct {
   std::vector<double> profiles;  ///< [layer][2], then [height][lateral cell][2]: phi, phi v_up
   SolidsSum solids;
   TemperatureSum temperature;
-  std::vector<double> histogram;  ///< particles a bin, inside the PDF's range
+  std::vector<double> histogram;  ///< particles a bin, and last all with a temperature
+  std::vector<double> warmth;     ///< [layer][2], by centres: volume [m3], volume x T [m3 K]
 };
 
 template <class Archive>
 void archive(Archive& ar, SlotProduct& slot) {
-  auto& [key, fields, profiles, solids, temperature, histogram] = slot;
-  ar(key, fields, profiles, solids, temperature, histogram);
+  auto& [key, fields, profiles, solids, temperature, histogram, warmth] = slot;
+  ar(key, fields, profiles, solids, temperature, histogram, warmth);
 }
 
 struct SnapshotProduct {

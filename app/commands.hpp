@@ -25,6 +25,7 @@ int exit_code_of(const std::function<int()>& program);
 
 void add_common(CLI::App& command, Common& common);
 void add_analyse(CLI::App& app);
+void add_case(CLI::App& app);
 void add_curves(CLI::App& app);
 void add_digitise(CLI::App& app);
 void add_info(CLI::App& app);

@@ -17,6 +17,7 @@ int main(int argc, char** argv) {
     app::add_tradeoff(app);
     app::add_curves(app);
     app::add_digitise(app);
+    app::add_case(app);
     try {
       app.parse(argc, argv);
     } catch (const CLI::Success& asked) {  // --help, --version

@@ -29,6 +29,15 @@ bool has_footer(const std::string& path) {
 
 std::string file_name(const std::string& path) { return fs::path(path).filename().string(); }
 
+// Nothing in a time but, perhaps, what the solver needs to go on.
+bool is_bare(const std::string& directory) {
+  std::error_code error;
+  for (auto entry = fs::directory_iterator(directory, error);
+       !error && entry != fs::directory_iterator(); entry.increment(error))
+    if (file_name(entry->path().string()) != "uniform") return false;
+  return true;
+}
+
 }  // namespace
 
 // The times that every folder has; those that some lack are told.
@@ -110,29 +119,17 @@ void OpenFoamCase::Impl::find_fields() {
   // Times of nothing but a cloud count, too.
   std::erase_if(times, [&](const auto& time) {
     std::error_code error;
-    return time.fields.empty() &&
-           !fs::is_directory(folders.front().path + "/" + time.name + "/" + region + "lagrangian",
-                             error);
+    const auto directory = folders.front().path + "/" + time.name;
+    if (is_bare(directory))
+      problems.push_back(fmt::format("{}: no fields: left out", shown(time.name)));
+    return time.fields.empty() && !fs::is_directory(directory + "/" + region + "lagrangian", error);
   });
 }
 
 // A field that comes later than the start (a mean) or only belongs to it (an initial value) is as
 // it should be; one that comes and goes is not.
 void OpenFoamCase::Impl::tell_missing() {
-  for (const auto& [name, class_name] : classes) {
-    std::vector<std::string> lacking;
-    std::size_t having = 0;
-    bool first = false;
-    for (std::size_t t = 0; t < times.size(); ++t) {
-      const bool there = std::binary_search(times[t].fields.begin(), times[t].fields.end(), name);
-      if (there && t == 0) first = true;
-      if (there) ++having;
-      if (!there && having > 0) lacking.push_back(times[t].name);
-    }
-    if (lacking.empty() || (first && having == 1)) continue;
-    problems.push_back(fmt::format("{}: field {} is missing at {} of {} times, first at {}", root,
-                                   name, lacking.size(), times.size(), lacking.front()));
-  }
+  for (auto& line : missing_fields(root, times)) problems.push_back(std::move(line));
 }
 
 // A run that was killed while writing leaves its last time cut.

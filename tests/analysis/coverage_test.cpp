@@ -26,9 +26,7 @@ using Series = std::vector<double>;
 
 using tests::Random;
 
-Series ar1(Random& random, double rho, std::size_t n = samples) {
-  return tests::ar1(random, rho, n);
-}
+Series ar1(Random& random, double rho) { return tests::ar1(random, rho, samples); }
 
 /// AR(2) x = a x' + b x'', after 500 steps of running in.
 Series ar2(Random& random, double a, double b, std::size_t n = samples) {
