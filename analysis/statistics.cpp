@@ -210,6 +210,7 @@ constexpr std::size_t samples_a_mean = 5;      // of MSER-5
 constexpr std::size_t fewest_for_steady = 20;  // samples
 constexpr std::size_t fewest_kept = 5;         // means: the variance of fewer is small by chance
 constexpr double as_good = 1.1;                // times the minimum
+constexpr double plain_drift = 3;              // standard errors
 constexpr double significant_jump = 5;         // more, as its place is chosen from the series
 
 /// Least-squares fit of a times a shape to a series, both of zero mean.
@@ -259,7 +260,7 @@ bool changes(std::span<const double> series) {
   const Fit drift = fit(deviations, without_mean(line));
   const Fit leap = fit(deviations, without_mean(step));
   return leap.residue < drift.residue ? leap.significance > significant_jump
-                                      : drift.significance > significant_drift;
+                                      : drift.significance > plain_drift;
 }
 
 /// The rule's statistic for each number of means cut off the front; the last ones are left out.

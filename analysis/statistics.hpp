@@ -75,9 +75,9 @@ struct Drift {
 };
 
 /// Of a constant series, one with a value that is not finite, or fewer than 20 samples: 0, 0.
-/// Of white noise in 0.3 % of all cases beyond significant_drift.
+/// Of white noise in 1.2 % of all cases beyond significant_drift.
 Drift drift_of(std::span<const double> series);
-inline constexpr double significant_drift = 3;
+inline constexpr double significant_drift = 2.5;
 
 /// Integrated autocorrelation time in samples.
 struct AutocorrelationTime {
