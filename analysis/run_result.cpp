@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 #include <set>
+#include <tuple>
 
 #include "analysis/run_sums.hpp"
 #include "analysis/statistics.hpp"
@@ -14,6 +15,7 @@ namespace bedscope::analysis {
 namespace {
 
 constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
+constexpr double worth_a_word = 1e-3;  // of a mean, that a drift changes it
 
 }  // namespace
 
@@ -31,7 +33,7 @@ std::vector<RunSums::Species> RunSums::species() const {
               [&](std::size_t a, std::size_t b) { return slots_[a].type < slots_[b].type; });
   };
   in_order(found[0].slots);
-  for (const int type : types)
+  for (const int type : setup_->settings.wanted.species ? types : std::set<int>{})
     for (std::size_t s = 0; s < slots_.size(); ++s)
       if (slots_[s] == SlotKey{type, -1}) found.push_back({std::to_string(type), {s}});
   for (std::size_t rule = 0; rule < setup_->settings.species.size(); ++rule) {
@@ -150,6 +152,7 @@ void RunSums::profiles_of(const Species& species, const Window& window, SpeciesR
 
 void RunSums::fields_of(const Species& species, const WeightedSum& sum,
                         SpeciesResult& result) const {
+  if (!setup_->settings.wanted.fields) return;
   const auto cells = setup_->grid.size();
   auto& fields = result.fields;
   fields.holdup.assign(cells, 0);
@@ -272,7 +275,7 @@ void RunSums::bed_of(const Window& window, RunResult& result) const {
 }
 
 void RunSums::means_of(const Window& window, RunResult& result) const {
-  std::vector<double> weights, holdup, mass, clusters, bed, volumes;
+  std::vector<double> weights, holdup, mass, clusters, bed, volumes, heights;
   double volume = 0, outside = 0;
   const auto& grid = setup_->grid;
   const double area = grid.length(lateral) * grid.length(depth);
@@ -280,7 +283,7 @@ void RunSums::means_of(const Window& window, RunResult& result) const {
     const auto& sample = samples_[i];
     weights.push_back(sample.weight);
     holdup.push_back(sample.volume_inside / grid.volume());
-    clusters.push_back(occurrence_[i].clusters);
+    if (!occurrence_.empty()) clusters.push_back(occurrence_[i].clusters);
     volumes.push_back(sample.volume);
     volume += sample.weight * sample.volume;
     outside += sample.weight * (sample.volume - sample.volume_inside);
@@ -291,6 +294,7 @@ void RunSums::means_of(const Window& window, RunResult& result) const {
       moment += sample.slots[s].solids.moment;
     }
     mass.push_back(kilograms);
+    if (moment > 0) heights.push_back(moment / sample.volume);
     // A level bed of height H has its centre at H/2: H = 2 x mean height, whatever the surface
     // does.
     bed.push_back(moment > 0 ? 1 - sample.volume / (area * 2 * moment / sample.volume) : 1);
@@ -298,11 +302,20 @@ void RunSums::means_of(const Window& window, RunResult& result) const {
   const auto mean = estimate_mean(holdup, weights);
   result.mean_holdup = mean.estimate();
   result.independent_samples = mean.independent_samples;
-  result.mean_occurrence = estimate_mean(clusters, weights).estimate();
+  if (!clusters.empty()) result.mean_occurrence = estimate_mean(clusters, weights).estimate();
   result.bed_voidage = estimate_mean(bed, weights).estimate();
   if (density_known() &&
       std::all_of(mass.begin(), mass.end(), [](double m) { return std::isfinite(m); }))
     result.inventory_mass = estimate_mean(mass, weights).estimate();
+  for (const auto& [what, series, unit] :
+       {std::tuple("mean holdup", &holdup, "-"), {"mean height", &heights, "m"}}) {
+    const auto drift = drift_of(*series);
+    const double size = series->empty() ? 0 : std::abs(series->front());
+    if (drift.significance > significant_drift && std::abs(drift.change) > worth_a_word * size)
+      result.problems.push_back(fmt::format(
+          "not steady: the {} drifts by {:.2g} {} over the window ({:.2g} standard errors)", what,
+          drift.change, unit, drift.significance));
+  }
   result.outside_fraction = volume > 0 ? std::max(0., outside / volume) : 0;
   const auto [least, most] = std::minmax_element(volumes.begin(), volumes.end());
   if (volumes.size() > 1 && *most - *least <= 1e-12 * *most)
@@ -369,6 +382,8 @@ RunResult RunSums::finish(const readers::Series& series, const Window& window) &
                       100 * found.temperature_outside));
     result.species.push_back(std::move(found));
   }
+  if (auto edge = sensitivity_.describe(setup.settings.clusters); !edge.empty())
+    result.problems.push_back(std::move(edge));
   result.occurrence = occurrence_;
   result.clusters = std::move(clusters_);
   keep_from(result.clusters, window.first);

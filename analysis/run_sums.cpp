@@ -57,13 +57,14 @@ void RunSums::add(SnapshotProduct& product, double weight) {
     if (sample.slots.size() <= number) sample.slots.resize(number + 1);
     sample.slots[number] = {slot.solids, slot.temperature};
     if (weight <= 0) continue;
-    fields_.at(i).add(weight, number, slot.fields);
+    if (setup_->settings.wanted.fields) fields_.at(i).add(weight, number, slot.fields);
     profiles_.at(i).add(weight, number, slot.profiles);
     if (!slot.histogram.empty()) histograms_.at(i).add(weight, number, slot.histogram);
     if (!slot.warmth.empty()) warmth_.at(i).add(weight, number, slot.warmth);
   }
   samples_.push_back(std::move(sample));
 
+  if (weight > 0) sensitivity_.merge(product.sensitivity);
   double area = 0;
   for (auto& cluster : product.image.clusters) {
     cluster.snapshot = i;
@@ -72,10 +73,12 @@ void RunSums::add(SnapshotProduct& product, double weight) {
     if (!keep_contours_) cluster.contours = {};
   }
   const auto& grid = setup_->grid;
-  occurrence_.push_back({time, static_cast<int>(product.image.clusters.size()),
-                         area / (grid.length(lateral) * grid.length(up))});
+  if (setup_->settings.wanted.clusters)
+    occurrence_.push_back({time, static_cast<int>(product.image.clusters.size()),
+                           area / (grid.length(lateral) * grid.length(up))});
   if (weight > 0) {
-    tracker_.link(product.image, setup_->time_known ? time : undefined);
+    if (setup_->settings.wanted.clusters)
+      tracker_.link(product.image, setup_->time_known ? time : undefined);
     if (!setup_->has_velocity)
       for (auto& cluster : product.image.clusters)
         cluster.velocity_x = cluster.velocity_z = undefined;

@@ -42,7 +42,7 @@ class RunSums {
   template <class Archive>
   void archive(Archive& ar) {
     ar(slots_, fields_, profiles_, histograms_, warmth_, samples_, occurrence_, clusters_, tracker_,
-       bubbles_, flaws_, without_temperature_, bytes_read_);
+       bubbles_, sensitivity_, flaws_, without_temperature_, bytes_read_);
   }
 
  private:
@@ -97,6 +97,7 @@ class RunSums {
   std::vector<Cluster> clusters_;
   Tracker tracker_;
   BubbleSums bubbles_;
+  ClusterSensitivity sensitivity_;
   readers::Flaws flaws_;
   std::int64_t without_temperature_ = 0;
   std::uint64_t bytes_read_ = 0;

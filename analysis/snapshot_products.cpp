@@ -303,15 +303,14 @@ bool ids_wanted(std::size_t i, std::size_t snapshots) {
   return i % sample == 0 || i + 1 == snapshots;
 }
 
-void make_product(const RunSetup& setup, const readers::Series& series, std::size_t i,
-                  SnapshotProduct& out, ProductScratch& scratch) {
+void sum_snapshot(const RunSetup& setup, std::size_t i, SnapshotProduct& out,
+                  ProductScratch& scratch) {
+  const auto& wanted = setup.settings.wanted;
   out.snapshot = i;
   out.used = 0;
   out.volume = out.volume_inside = 0;
   out.without_temperature = 0;
   out.flaws = {};
-  series.read(i, ids_wanted(i, series.size()) ? setup.request : setup.request_without_id,
-              scratch.snapshot, scratch.reader);
   out.bytes_read = scratch.snapshot.bytes_read;
   Mapper mapper(setup, scratch.snapshot, out);
   std::visit([&](const auto& kernel) { mapper.run(kernel); }, *setup.kernel);
@@ -319,10 +318,22 @@ void make_product(const RunSetup& setup, const readers::Series& series, std::siz
   const auto& ids = scratch.snapshot.columns[column_id];
   if (!ids.empty()) readers::find_doubled_ids(ids, i, scratch.marks, out.flaws);
   reduce(setup, out, scratch);
-  out.image = find_clusters(setup.grid, out.holdup, scratch.mass, scratch.mass_vx, scratch.mass_vz,
-                            setup.settings.clusters);
+  out.sensitivity = {};
+  if (wanted.clusters) {
+    const auto& thresholds = setup.settings.clusters;
+    out.image = find_clusters(setup.grid, out.holdup, scratch.mass, scratch.mass_vx,
+                              scratch.mass_vz, thresholds);
+    if (sensitivity_wanted(i)) out.sensitivity.add(setup.grid, out.holdup, thresholds, out.image);
+  }
   out.bed = bed_heights(setup.grid, layer_holdups(setup.grid, out));
   if (setup.settings.bubbles) out.bubbles = make_bubbles(setup, out.holdup, out.bed.surface);
+}
+
+void make_product(const RunSetup& setup, const readers::Series& series, std::size_t i,
+                  SnapshotProduct& out, ProductScratch& scratch) {
+  series.read(i, ids_wanted(i, series.size()) ? setup.request : setup.request_without_id,
+              scratch.snapshot, scratch.reader);
+  sum_snapshot(setup, i, out, scratch);
 }
 
 }  // namespace bedscope::analysis

@@ -80,7 +80,7 @@ class Walk {
     if (other_cells_ > 0) return fmt::format("a mesh of {} cells, not particles", other_cells_);
     if (has("volumefraction") && has("v_avg"))
       return "averages on an Eulerian grid (dump euler/vtk), not particles";
-    if (points_ > 0 && vertices_ == 0 && !has("radius") && !has("diameter"))
+    if (points_ > 0 && vertices_ == 0 && !has_column(flat_names_, "radius"))
       return "points without vertices and without a radius, not particles";
     return {};
   }

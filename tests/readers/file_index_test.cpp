@@ -167,6 +167,26 @@ TEST(FileIndex, BlocksThatAreNoParticlesAreLeftOut) {
     EXPECT_NE(left.find(what), std::string::npos) << what;
 }
 
+TEST(FileIndex, WhereNothingIsNamedThereWereNoParticles) {  // so LIGGGHTS 3.8 writes them
+  const TemporaryFolder folder;
+  const auto box = bytes_of(data / "liggghts_parallel" / "case_1000" / "case_1000_3.vtr");
+  for (const auto* name : {"box_0.vtr", "box_10.vtr"}) folder.write(name, box);
+  folder.write("a_10.vtp", vtp(1, 2));
+  folder.write("p_0.pvtp", pvtp({}));
+  folder.write("p_10.pvtp", pvtp({"a_10.vtp"}));
+  folder.write("c_0.vtm", vtm({"box_0.vtr"}));
+  folder.write("c_10.vtm", vtm({"a_10.vtp", "box_10.vtr"}));
+  folder.write("p.pvd", pvd({{"0.5", "p_0.pvtp"}, {"1.5", "p_10.pvtp"}}));
+  for (const char* name : {"p_*", "c_*", "p.pvd"}) {
+    const auto series = Series::open(folder.path(name));
+    const auto found = look(series);
+    EXPECT_EQ(found.steps, (std::vector<std::int64_t>{0, 10}));
+    EXPECT_EQ(found.ids, (Ids{{}, {1, 2}}));
+    EXPECT_EQ(series.columns(), (std::vector<std::string>{"id"}));
+    EXPECT_TRUE(series.problems().empty());
+  }
+}
+
 TEST(FileIndex, IndicesInIndicesAreFollowed) {
   const TemporaryFolder folder;
   fs::create_directory(folder.path("case_10"));
@@ -275,7 +295,7 @@ TEST(FileIndex, ErrorsNameTheLineOfTheIndex) {
   EXPECT_EQ(error("a.pvtp", pvtp({"good.vtp", "more.vtp"})).substr(0, 39),
             "line 3: piece good.vtp has no array q, ");
   EXPECT_TRUE(error("a.pvtp", pvtp({"text.vtp"})).starts_with("line 3: piece text.vtp: "));
-  EXPECT_EQ(error("a.pvtp", pvtp({})), "names no files");
+  EXPECT_EQ(error("a.pvd", pvd({})), "names no files");
   EXPECT_EQ(error("a.pvd", pvd({{"x", "good.vtp"}})), "line 3: expected a time, found 'x'");
   EXPECT_EQ(error("a.series", series_file({{"1", "good.vtp"}, {"2", "gone.vtp"}})),
             "line 3: file gone.vtp not found");
