@@ -129,7 +129,7 @@ TEST(VtkXmlGlance, TagsTellWhatTheFileTells) {
     EXPECT_EQ(document.points(), many);
     const auto series = Series::open(folder.path());  // the last file is read as a whole
     EXPECT_EQ(series.particles(0), series.particles(1));
-    EXPECT_EQ(series.located(0).time, 0.1);
+    EXPECT_EQ(series.located(0).time, static_cast<double>(0.1F));  // a float, as it is
     EXPECT_EQ(series.located(0).ghosts, 1);
     EXPECT_EQ(*series.located(0).parts, *series.located(1).parts);
   }
