@@ -4,14 +4,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <condition_variable>
-#include <map>
-#include <mutex>
 #include <optional>
 #include <thread>
 
 #include "analysis/fluctuations.hpp"
 #include "analysis/gas_run.hpp"
+#include "analysis/in_order.hpp"
 #include "analysis/kept_run.hpp"
 #include "readers/error.hpp"
 
@@ -31,77 +29,6 @@ struct GasItem {
   GasProduct product;
   GasScratch scratch;
 };
-
-/// Calls make(i, item) for each i in [first, last), in parallel on items of their own, and
-/// take(item) in order.
-template <class Made, class Make, class Take>
-void for_each_in_order(std::size_t first, std::size_t last, int threads, Make&& make, Take&& take) {
-  struct Job {
-    Made item;
-    std::exception_ptr error;
-  };
-  const auto make_job = [&](std::size_t i, Job& job) {
-    try {
-      make(i, job.item);
-    } catch (...) {  // thrown again in the order of the series, whoever met it first
-      job.error = std::current_exception();
-    }
-  };
-  const auto deliver = [&](Job& job) {
-    if (job.error) std::rethrow_exception(job.error);
-    take(job.item);
-  };
-  if (threads == 1 || last - first < 2) {
-    Job job;
-    for (std::size_t i = first; i < last; ++i) {
-      make_job(i, job);
-      deliver(job);
-    }
-    return;
-  }
-  // Each thread takes the next snapshot and makes its product; whoever finishes the one whose turn
-  // it is hands over all that are ready. One product more than threads, so that nobody waits for a
-  // slow neighbour.
-  std::vector<Job> items(static_cast<std::size_t>(threads) + 1);
-  std::vector<Job*> idle;
-  idle.reserve(items.size());
-  for (auto& item : items) idle.push_back(&item);
-  std::map<std::size_t, Job*> ready;
-  std::mutex mutex;
-  std::condition_variable delivered;
-  std::size_t next = first, turn = first;
-  std::exception_ptr failure;
-  const auto work = [&] {
-    std::unique_lock lock(mutex);
-    while (true) {
-      delivered.wait(lock, [&] { return !idle.empty() || next == last || failure; });
-      if (next == last || failure) return;
-      const std::size_t i = next++;
-      Job* const item = idle.back();
-      idle.pop_back();
-      lock.unlock();
-      make_job(i, *item);
-      lock.lock();
-      ready[i] = item;
-      try {
-        for (; !failure && !ready.empty() && ready.begin()->first == turn; ++turn) {
-          idle.push_back(ready.begin()->second);
-          ready.erase(ready.begin());
-          deliver(*idle.back());
-        }
-      } catch (...) {
-        failure = std::current_exception();
-      }
-      delivered.notify_all();
-    }
-  };
-  {
-    std::vector<std::jthread> team;
-    team.reserve(static_cast<std::size_t>(threads));
-    for (int k = 0; k < threads; ++k) team.emplace_back(work);
-  }
-  if (failure) std::rethrow_exception(failure);
-}
 
 /// Computes the products of snapshots [first, last) and their checks against the gas.
 template <class Take>
@@ -206,6 +133,7 @@ struct LiveAnalysis::State {
                                                             .index = &index,
                                                             .columns = settings.columns,
                                                             .names_needed = true});
+    found.thin(static_cast<std::size_t>(settings.every));
     auto gas_found = open_gas();
     if (up_to_date && same_steps(found, *series) && names_of(gas_found) == gas_times) return false;
     up_to_date = false;
@@ -314,10 +242,12 @@ struct LiveAnalysis::State {
       (complete ? *complete : *pass.sums).add(product, weights[i]);
       if (options.progress) options.progress(i + 1, all);
     };
+    auto first = pass.snapshots();
     if (auto last = std::exchange(pass.last, std::nullopt);
-        last && last->snapshot == pass.snapshots() && ids_wanted(last->snapshot, all))
+        last && last->snapshot == first && ids_wanted(last->snapshot, all)) {
       take(*last);
-    const auto first = pass.snapshots() + (complete ? 1 : 0);
+      ++first;
+    }
     pass.read_from = std::min(pass.read_from, first);
     news = news || first < all;
     for_each_product(*setup, *series, gas_run(), first, all, threads(), [&](Item& item) {
@@ -350,10 +280,7 @@ struct LiveAnalysis::State {
     gas->finish(*series, result);
   }
 
-  int threads() const {
-    return options.threads > 0 ? options.threads
-                               : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  }
+  int threads() const { return thread_count(options.threads); }
 };
 
 LiveAnalysis::LiveAnalysis(RunSettings settings, AnalysisOptions options)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The analysis of one run from dumps to result: the only file that knows of threads.
+// The analysis of one run from dumps to result.
 #pragma once
 
 #include <filesystem>

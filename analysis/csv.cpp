@@ -10,38 +10,16 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <memory>
 #include <utility>
 
 #include "readers/error.hpp"
+#include "readers/text_file.hpp"
 
 namespace bedscope::analysis {
 namespace {
 
 constexpr std::size_t flush_at = 1 << 18;
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-
-struct CloseFile {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-
-std::string whole_file(const std::filesystem::path& path) {
-  const auto fail = [&] { throw FileError("{}: {}", path.string(), std::strerror(errno)); };
-  const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
-  if (!file) fail();
-  std::error_code unknown;
-  const std::uintmax_t size = std::filesystem::file_size(path, unknown);
-  std::string text;
-  std::size_t step = unknown ? 1 << 16 : size + 1;  // one read as a rule
-  for (std::size_t count = 1; count > 0; step = 1 << 16) {
-    const std::size_t have = text.size();
-    text.resize(have + step);
-    count = std::fread(text.data() + have, 1, step, file.get());
-    text.resize(have + count);
-  }
-  if (std::ferror(file.get()) != 0) fail();
-  return text;
-}
 
 std::string_view trimmed(std::string_view text) {
   const auto blank = [](char c) { return c == ' ' || c == '\t'; };
@@ -123,7 +101,8 @@ void CsvWriter::fail(int reason) const {
   throw FileError("{}: {}", path_.string(), std::strerror(reason));
 }
 
-CsvReader::CsvReader(const std::filesystem::path& path) : path_(path), text_(whole_file(path)) {
+CsvReader::CsvReader(const std::filesystem::path& path)
+    : path_(path), text_(readers::read_text(path.string())) {
   if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;
   if (!read_record()) fail("a line of column names", "none");
   for (const std::string_view name : fields_) header_.emplace_back(trimmed(name));

@@ -11,17 +11,19 @@ namespace {
 
 constexpr double same_plane = 1e-6;  // of a grid cell: what coordinates of six digits can tell
 
-double snapped(const Grid& grid, int axis, double x) {
-  const double place = std::round((x - grid.min[axis]) / grid.width(axis));
+}  // namespace
+
+double GasMapping::snapped(const Grid& grid, int axis, double x) const {
+  const double width = grid.width(axis);
+  const double place = std::round((x - grid.min[axis]) / width);
   if (!(place >= 0 && place <= grid.cells[axis])) return x;
   const double face = grid.face(axis, static_cast<int>(place));
-  return std::abs(x - face) <= same_plane * grid.width(axis) ? face : x;
+  return std::abs(x - face) <= std::max(same_plane * width, std::min(resolution_, 1e-3 * width)) ? face : x;
 }
-
-}  // namespace
 
 GasMapping::GasMapping(const readers::Mesh& mesh, const Grid& grid, const std::array<int, 3>& axes)
     : exact_(mesh.boxes.has_value()),
+      resolution_(mesh.resolution),
       row_(static_cast<std::size_t>(grid.cells[lateral])),
       depth_cells_(static_cast<std::size_t>(grid.cells[depth])),
       volumes_(mesh.volumes),

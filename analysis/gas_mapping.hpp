@@ -21,8 +21,8 @@ namespace bedscope::analysis {
 ///
 /// Every volume is shared out completely: the parts in the grid and the part outside of it add up
 /// to the cell to rounding. Planes of the mesh within 1e-6 of a grid cell of a plane of the grid
-/// are taken as that plane, so that no slivers of a cell lie beyond a wall. Periodic axes do not
-/// wrap.
+/// (or what the coordinates of the mesh are rounded to) are taken as that plane, so that no slivers
+/// of a cell lie beyond a wall. Periodic axes do not wrap.
 class GasMapping {
  public:
   /// `axes`: which of x, y, z (0, 1, 2) is lateral, depth, up.
@@ -73,6 +73,7 @@ class GasMapping {
   const Span& span(std::size_t axis, std::size_t cell) const {
     return spans_[axis][static_cast<std::size_t>(span_of_[axis][cell])];
   }
+  double snapped(const Grid& grid, int axis, double x) const;
   void add_span(const Grid& grid, std::size_t axis, double low, double high);
   void add_boxes(const readers::Mesh& mesh, const Grid& grid, const std::array<int, 3>& axes);
   void add_likenesses(const readers::Mesh& mesh, const Grid& grid, const std::array<int, 3>& axes);
@@ -81,6 +82,7 @@ class GasMapping {
   void find_layers(const readers::Mesh& mesh, const Grid& grid, int axis);
 
   bool exact_ = false;
+  double resolution_ = 0;  // of the mesh [m]
   std::size_t row_ = 1, depth_cells_ = 1;
   std::vector<double> volumes_;
   std::array<std::vector<Span>, 3> spans_;

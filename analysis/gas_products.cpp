@@ -17,12 +17,14 @@ GasSource::GasSource(const RunSetup& run, readers::GasSeries series)
       axes_{run.settings.lateral, 3 - run.settings.lateral - run.settings.up, run.settings.up},
       series_(std::move(series)),
       setup_(set_up_gas(run.settings.label, run.settings.gas, series_)) {
-  mapping_ = std::make_shared<GasMapping>(*series_.mesh_at(0), run.grid, axes_);
+  mesh_ = series_.mesh_at(0);
+  mapping_ = std::make_shared<GasMapping>(*mesh_, run.grid, axes_);
 }
 
 std::shared_ptr<const GasMapping> GasSource::mapping_at(std::size_t time) const {
-  if (!series_.moving()) return mapping_;
-  return std::make_shared<GasMapping>(*series_.mesh_at(time), run_->grid, axes_);
+  const auto mesh = series_.mesh_at(time);
+  if (mesh == mesh_) return mapping_;
+  return std::make_shared<GasMapping>(*mesh, run_->grid, axes_);
 }
 
 void GasSource::read_voidage(std::size_t time, readers::FieldValues& out) const {

@@ -75,6 +75,7 @@ class GasSource {
   std::array<int, 3> axes_;
   readers::GasSeries series_;
   GasSetup setup_;
+  std::shared_ptr<const readers::Mesh> mesh_;  // of the first time
   std::shared_ptr<const GasMapping> mapping_;
 };
 

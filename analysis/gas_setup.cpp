@@ -116,8 +116,13 @@ void find_unit_of_pressure(const std::string& label, const GasSettings& settings
   const auto is = [&](double mass, double length) {
     return power[0] == mass && power[1] == length && power[2] == -2;
   };
-  if (!values.dimensions_known) {
-    setup.problems.push_back(fmt::format("gas: {} has no dimensions: taken as Pa", name));
+  if (!values.dimensions_known && settings.density) {
+    setup.pressure_factor = *settings.density;
+    setup.problems.push_back(fmt::format(
+        "gas: {} has no dimensions: taken as p/rho [m2/s2], as gas_density is given", name));
+  } else if (!values.dimensions_known) {
+    setup.problems.push_back(fmt::format(
+        "gas: {} has no dimensions: taken as Pa; gas_density makes it p/rho [m2/s2]", name));
   } else if (is(0, 2)) {
     if (settings.density) {
       setup.pressure_factor = *settings.density;

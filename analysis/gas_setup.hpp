@@ -20,7 +20,8 @@ struct GasSetup {
 /// `alpha.gas`, the one `alpha.<phase>` beside a solid phase, or 1 - the one solid phase; velocity
 /// and temperature of that phase, or of the only one (`U`, `T`); pressure `p` or `p_rgh`.
 /// A pressure of dimensions [0 2 -2] is multiplied by the study's gas_density, without which there
-/// is no pressure (said in problems).
+/// is no pressure (said in problems). One whose dimensions are not on disk (VTK) is p/rho where the
+/// study gives a gas_density, else in Pa; either is said.
 /// Throws InputError for a field that the study names and that is nowhere, where no voidage is
 /// found, and for a pressure of other dimensions.
 GasSetup set_up_gas(const std::string& label, const GasSettings& settings,

@@ -10,20 +10,20 @@
 namespace bedscope::analysis {
 namespace {
 
-constexpr std::string_view kind = "bedscope state of a run, version 1\n";
+constexpr std::string_view kind = "bedscope state of a run, version 2\n";
 
 /// The names make the compiler ask about each setting that is added.
 template <class Archive>
 void archive_settings(Archive& ar, RunSettings& settings) {
-  auto& [label, particles, repeated, columns, time_step, time_required, step_zero, domain, up_axis,
-         lateral_axis, cell, cells, periodic, density, radius, species, average, mapping, heights,
-         band, clusters, bubbles, bed, height_at_rest, spectra, segment, probes, temperature_column,
-         temperature, temperature_bins, gas] = settings;
+  auto& [label, particles, repeated, every, wanted, columns, time_step, time_required, step_zero,
+         domain, up_axis, lateral_axis, cell, cells, periodic, density, radius, species, average,
+         mapping, gaussian_width, heights, band, clusters, bubbles, bed, height_at_rest, spectra,
+         segment, probes, temperature_column, temperature, temperature_bins, gas] = settings;
   // Not those that only decide which dumps, their times or their weights: these are compared
   // themselves. Not the label, nor what is made of the sums or beside them: spectra and gas.
-  ar(repeated, columns, domain, up_axis, lateral_axis, cell, cells, periodic, density, radius,
-     species, mapping, heights, band, clusters, bubbles, bed, height_at_rest, temperature_column,
-     temperature, temperature_bins);
+  ar(repeated, every, wanted, columns, domain, up_axis, lateral_axis, cell, cells, periodic,
+     density, radius, species, mapping, gaussian_width, heights, band, clusters, bubbles, bed,
+     height_at_rest, temperature_column, temperature, temperature_bins);
   bool automatic = !average;
   ar(automatic);
 }

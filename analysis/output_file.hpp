@@ -19,11 +19,13 @@ void remove_file(const std::filesystem::path& path);
 /// commit(); removed again where commit() was not reached.
 class OutputFile {
  public:
+  /// Throws FileError where something stands there that is not a file.
   explicit OutputFile(std::filesystem::path path);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
+  const std::filesystem::path& path() const { return path_; }
   const std::filesystem::path& part() const { return part_; }
   /// Throws FileError where the file cannot be put in its place.
   void commit();
@@ -32,5 +34,9 @@ class OutputFile {
   std::filesystem::path path_, part_;
   bool done_ = false;
 };
+
+/// Writes the whole content to `output.part()`, for files that shall appear together. Throws
+/// FileError naming the path and the reason.
+void write_part(const OutputFile& output, std::string_view content);
 
 }  // namespace bedscope::analysis

@@ -12,7 +12,8 @@
 #include <string_view>
 #include <vector>
 
-#include "analysis/csv.hpp"
+#include "analysis/read_bed_tables.hpp"
+#include "analysis/table_rows.hpp"
 #include "analysis/tables.hpp"
 #include "readers/error.hpp"
 
@@ -24,38 +25,10 @@ constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double even = 1e-4;  // of a cell: coordinates printed with six digits pass on 600 cells
 
 constexpr std::string_view table_names[] = {
-    "axial_profile.csv",      "lateral_profile.csv", "inventory.csv",      "clusters.csv",
-    "cluster_occurrence.csv", "temperature.csv",     "temperature_pdf.csv"};
-
-// The rows of one run in one table.
-class RunRows : public CsvReader {
- public:
-  // The rows of every run where `run` is nothing.
-  RunRows(const fs::path& path, std::optional<std::string> run)
-      : CsvReader(path), run_column_(column("run")), type_(column("type")), run_(std::move(run)) {}
-
-  bool next() {
-    while (CsvReader::next())
-      if (!run_column_ || !run_ || text(*run_column_) == *run_) return true;
-    return false;
-  }
-  std::string type() const { return type_ ? std::string(text(*type_)) : "all"; }
-  double finite(std::size_t at, std::string_view what) const {
-    const double value = number(at);
-    if (!std::isfinite(value)) fail(fmt::format("a finite {}", what), fmt::format("{}", value));
-    return value;
-  }
-  int count(std::size_t at, int least) const {
-    const std::int64_t value = whole(at, least);
-    if (value > std::numeric_limits<int>::max()) fail("a smaller number", std::to_string(value));
-    return static_cast<int>(value);
-  }
-  int count(std::optional<std::size_t> at, int least) const { return at ? count(*at, least) : 0; }
-
- private:
-  std::optional<std::size_t> run_column_, type_;
-  std::optional<std::string> run_;
-};
+    "axial_profile.csv", "lateral_profile.csv",   "inventory.csv",          "clusters.csv",
+    "temperature.csv",   "temperature_axial.csv", "cluster_occurrence.csv", "temperature_pdf.csv",
+    "bed_height.csv",    "bubbles.csv",           "bubble_profile.csv",     "fluctuation.csv",
+    "gas_axial.csv",     "gas_lateral.csv",       "pressure_drop.csv"};
 
 // Which rows to take: those of `label`, or all where there is one run only.
 std::optional<std::string> chosen_run(const std::vector<fs::path>& tables, const fs::path& folder,
@@ -95,21 +68,13 @@ struct ProfileRow {
 std::vector<ProfileRow> profile_rows(RunRows& table, std::string_view coordinate, bool lateral) {
   const std::size_t at = table.needed(coordinate);
   const std::size_t height = lateral ? table.needed("height [m]") : at;
-  const auto value_and_ci = [&](std::string_view name, std::string_view unit) {
-    return std::pair(table.column(fmt::format("{} [{}]", name, unit)),
-                     table.column(fmt::format("{}_ci95 [{}]", name, unit)));
-  };
-  const auto holdup = value_and_ci("holdup", "-");
-  const auto velocity = value_and_ci("velocity_z", "m/s");
-  const auto flux = value_and_ci("mass_flux_z", "kg/m2/s");
-  const auto estimate = [&](const auto& columns) {
-    return Estimate{table.number(columns.first), table.number(columns.second)};
-  };
+  const auto holdup = table.pair("holdup", "-"), velocity = table.pair("velocity_z", "m/s"),
+             flux = table.pair("mass_flux_z", "kg/m2/s");
   std::vector<ProfileRow> rows;
   while (table.next())
     rows.push_back({table.type(), lateral ? table.finite(height, "height") : 0,
-                    table.finite(at, "coordinate"), estimate(holdup), estimate(velocity),
-                    estimate(flux), table.line()});
+                    table.finite(at, "coordinate"), table.estimate(holdup),
+                    table.estimate(velocity), table.estimate(flux), table.line()});
   return rows;
 }
 
@@ -287,12 +252,40 @@ void read_temperature(const fs::path& path, const std::optional<std::string>& ru
   }
 }
 
+// Into the layers of axial_profile.csv, or where a species has none there into its own.
+void read_axial_temperature(const fs::path& path, const std::optional<std::string>& run_name,
+                            RunResult& run) {
+  RunRows table(path, run_name);
+  const std::size_t z = table.needed("z [m]"), value = table.needed("temperature [K]");
+  const auto ci95 = table.column("temperature_ci95 [K]");
+  std::set<std::string> layered;
+  for (const SpeciesResult& species : run.species)
+    if (!species.axial.coordinate.empty()) layered.insert(species.type);
+  while (table.next()) {
+    SpeciesResult& species = species_of(run, table.type());
+    auto& layers = species.axial.coordinate;
+    const double at = table.finite(z, "coordinate");
+    auto layer = std::lower_bound(layers.begin(), layers.end(), at);
+    if (layer == layers.end() || *layer != at) {
+      if (layered.contains(species.type))
+        table.fail("a height of axial_profile.csv", fmt::format("{} m", at));
+      if (layer != layers.end()) table.fail("ascending heights", fmt::format("{} m", at));
+      append(species.axial, {.type = species.type, .coordinate = at});
+      layer = layers.end() - 1;
+    }
+    const auto k = static_cast<std::size_t>(layer - layers.begin());
+    species.axial_temperature.resize(layers.size());
+    species.axial_temperature[k] = {table.number(value), table.number(ci95)};
+  }
+}
+
 // A PDF is stored without its bins, n equal ones from 0 to 1: so must those of the table be.
 void read_temperature_pdf(const fs::path& path, const std::optional<std::string>& run_name,
                           RunResult& run) {
   RunRows table(path, run_name);
   const std::size_t centre = table.needed("bin_centre [-]"),
                     density = table.needed("probability_density [-]");
+  const auto ci95 = table.column("probability_density_ci95 [-]");
   struct Bin {
     double centre;
     std::size_t line;
@@ -304,6 +297,7 @@ void read_temperature_pdf(const fs::path& path, const std::optional<std::string>
     bins_of[static_cast<std::size_t>(&species - run.species.data())].push_back(
         {table.finite(centre, "bin centre"), table.line()});
     species.temperature_pdf.push_back(table.number(density));
+    species.temperature_pdf_ci95.push_back(table.number(ci95));
   }
   for (const std::vector<Bin>& bins : bins_of)
     for (std::size_t i = 0; i < bins.size(); ++i) {
@@ -406,7 +400,15 @@ RunResult read_tables(const fs::path& folder, const std::string& label) {
   read("cluster_occurrence.csv", read_occurrence);
   read("clusters.csv", read_clusters);  // needs the occurrence's times
   read("temperature.csv", read_temperature);
+  read("temperature_axial.csv", read_axial_temperature);
   read("temperature_pdf.csv", read_temperature_pdf);
+  read("bed_height.csv", read_bed_height);
+  read("bubbles.csv", read_bubbles);
+  read("bubble_profile.csv", read_bubble_profile);
+  read("fluctuation.csv", read_fluctuation);
+  read("gas_axial.csv", read_gas_axial);
+  read("gas_lateral.csv", read_gas_lateral);
+  read("pressure_drop.csv", read_pressure_drop);
   arrange(run);
   run.time_known = any_time(run);
   run.density_known = any_density(run);

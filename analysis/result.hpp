@@ -37,7 +37,9 @@ struct SpeciesResult {
   Profile axial;
   std::vector<Profile> lateral;  ///< one for each of RunResult::heights
   MeanFields fields;
-  std::vector<double> temperature_pdf;  ///< [-], per bin; empty without a temperature range
+  std::vector<Estimate> axial_temperature;   ///< of the solids, <v T>/<v> by layer [K]; or empty
+  std::vector<double> temperature_pdf;       ///< [-], per bin; empty without a temperature range
+  std::vector<double> temperature_pdf_ci95;  ///< half-widths; empty where not known
   double temperature_outside = 0;       ///< share of particles outside that range
 };
 

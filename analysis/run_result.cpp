@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 #include <set>
+#include <tuple>
 
 #include "analysis/run_sums.hpp"
 #include "analysis/statistics.hpp"
@@ -14,6 +15,7 @@ namespace bedscope::analysis {
 namespace {
 
 constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
+constexpr double worth_a_word = 1e-3;  // of a mean, that a drift changes it
 
 }  // namespace
 
@@ -31,7 +33,7 @@ std::vector<RunSums::Species> RunSums::species() const {
               [&](std::size_t a, std::size_t b) { return slots_[a].type < slots_[b].type; });
   };
   in_order(found[0].slots);
-  for (const int type : types)
+  for (const int type : setup_->settings.wanted.species ? types : std::set<int>{})
     for (std::size_t s = 0; s < slots_.size(); ++s)
       if (slots_[s] == SlotKey{type, -1}) found.push_back({std::to_string(type), {s}});
   for (std::size_t rule = 0; rule < setup_->settings.species.size(); ++rule) {
@@ -93,16 +95,9 @@ void RunSums::profiles_of(const Species& species, const Window& window, SpeciesR
   const auto heights = setup_->heights.size();
 
   // One sample a leaf: its mean over the time that it stands for.
-  const auto kept = profiles_.leaves();
-  std::vector<const WeightedSum*> leaves;
+  const auto leaves = samples_of(profiles_, window);
   std::vector<double> weights;
-  for (const auto& [number, sum] : kept) {
-    if (number * profiles_.size() < window.first && setup_->settings.average == std::nullopt)
-      continue;
-    if (sum.weight <= 0) continue;
-    leaves.push_back(&sum);
-    weights.push_back(sum.weight);
-  }
+  for (const auto& sum : leaves) weights.push_back(sum.weight);
   const auto density = densities();
   const std::size_t n = leaves.size();
   std::vector<double> holdup(n), moved(n), flux(n);
@@ -111,8 +106,8 @@ void RunSums::profiles_of(const Species& species, const Window& window, SpeciesR
     for (std::size_t leaf = 0; leaf < n; ++leaf) {
       holdup[leaf] = moved[leaf] = flux[leaf] = 0;
       for (const std::size_t s : species.slots) {
-        if (s >= leaves[leaf]->slots.size() || leaves[leaf]->slots[s].empty()) continue;
-        const double* const q = leaves[leaf]->slots[s].data() + at;
+        if (s >= leaves[leaf].slots.size() || leaves[leaf].slots[s].empty()) continue;
+        const double* const q = leaves[leaf].slots[s].data() + at;
         const double per_weight = 1 / weights[leaf];
         holdup[leaf] += q[0] * per_weight;
         moved[leaf] += q[1] * per_weight;
@@ -157,6 +152,7 @@ void RunSums::profiles_of(const Species& species, const Window& window, SpeciesR
 
 void RunSums::fields_of(const Species& species, const WeightedSum& sum,
                         SpeciesResult& result) const {
+  if (!setup_->settings.wanted.fields) return;
   const auto cells = setup_->grid.size();
   auto& fields = result.fields;
   fields.holdup.assign(cells, 0);
@@ -190,25 +186,63 @@ void RunSums::fields_of(const Species& species, const WeightedSum& sum,
   }
 }
 
+std::vector<WeightedSum> RunSums::samples_of(const Leaves& sums, const Window& window) const {
+  std::vector<WeightedSum> found;
+  for (auto& [number, sum] : sums.leaves()) {
+    const bool before = number * sums.size() < window.first && !setup_->settings.average;
+    if (!before && sum.weight > 0) found.push_back(sum);
+  }
+  return found;
+}
+
+namespace {
+
+/// Sum over the slots of one quantity, a sample each; whatever a sample lacks is 0.
+std::vector<double> series_of(const std::vector<WeightedSum>& samples,
+                              const std::vector<std::size_t>& slots, std::size_t at) {
+  std::vector<double> values;
+  for (const auto& sample : samples) {
+    double sum = 0;
+    for (const std::size_t s : slots)
+      if (s < sample.slots.size() && !sample.slots[s].empty()) sum += sample.slots[s][at];
+    values.push_back(sum / sample.weight);
+  }
+  return values;
+}
+
+std::vector<double> weights_of(const std::vector<WeightedSum>& samples) {
+  std::vector<double> weights;
+  for (const auto& sample : samples) weights.push_back(sample.weight);
+  return weights;
+}
+
+}  // namespace
+
 void RunSums::pdf_of(const Species& species, const Window& window, SpeciesResult& result) const {
   if (!setup_->has_temperature || !setup_->settings.temperature) return;
   const auto bins = static_cast<std::size_t>(setup_->settings.temperature_bins);
-  const auto sum =
-      histograms_.total(setup_->settings.average ? 0 : window.first / histograms_.size());
-  std::vector<double> density(bins, 0);
-  double all = 0;  // particles with a temperature, inside the range and outside
-  for (std::size_t i = window.first; i < window.first + window.snapshots; ++i)
-    for (const std::size_t s : species.slots)
-      if (s < samples_[i].slots.size())
-        all += samples_[i].weight * static_cast<double>(samples_[i].slots[s].temperature.particles);
-  for (const std::size_t s : species.slots)
-    if (s < sum.slots.size() && !sum.slots[s].empty())
-      for (std::size_t b = 0; b < bins; ++b) density[b] += sum.slots[s][b];
-  const double inside = std::accumulate(density.begin(), density.end(), 0.);
-  if (species.name == "all" && all > 0 && inside < all * (1 - 1e-12))
-    result.temperature_outside = 1 - inside / all;
-  for (auto& value : density) value *= static_cast<double>(bins) / all;
-  result.temperature_pdf = std::move(density);
+  const auto samples = samples_of(histograms_, window);
+  const auto weights = weights_of(samples);
+  const auto all = series_of(samples, species.slots, bins);  // inside the range and outside
+  double inside = 0;
+  for (std::size_t b = 0; b < bins; ++b) {
+    const auto share = estimate_ratio(series_of(samples, species.slots, b), all, weights);
+    result.temperature_pdf.push_back(share.value * static_cast<double>(bins));
+    result.temperature_pdf_ci95.push_back(share.ci95 * static_cast<double>(bins));
+    inside += share.value;
+  }
+  if (species.name == "all" && inside < 1 - 1e-12) result.temperature_outside = 1 - inside;
+}
+
+void RunSums::axial_temperature_of(const Species& species, const Window& window,
+                                   SpeciesResult& result) const {
+  if (!setup_->has_temperature) return;
+  const auto samples = samples_of(warmth_, window);
+  const auto weights = weights_of(samples);
+  for (std::size_t k = 0; k < static_cast<std::size_t>(setup_->grid.cells[up]); ++k)
+    result.axial_temperature.push_back(estimate_ratio(series_of(samples, species.slots, 2 * k + 1),
+                                                      series_of(samples, species.slots, 2 * k),
+                                                      weights));
 }
 
 void RunSums::bed_of(const Window& window, RunResult& result) const {
@@ -241,7 +275,7 @@ void RunSums::bed_of(const Window& window, RunResult& result) const {
 }
 
 void RunSums::means_of(const Window& window, RunResult& result) const {
-  std::vector<double> weights, holdup, mass, clusters, bed, volumes;
+  std::vector<double> weights, holdup, mass, clusters, bed, volumes, heights;
   double volume = 0, outside = 0;
   const auto& grid = setup_->grid;
   const double area = grid.length(lateral) * grid.length(depth);
@@ -249,7 +283,7 @@ void RunSums::means_of(const Window& window, RunResult& result) const {
     const auto& sample = samples_[i];
     weights.push_back(sample.weight);
     holdup.push_back(sample.volume_inside / grid.volume());
-    clusters.push_back(occurrence_[i].clusters);
+    if (!occurrence_.empty()) clusters.push_back(occurrence_[i].clusters);
     volumes.push_back(sample.volume);
     volume += sample.weight * sample.volume;
     outside += sample.weight * (sample.volume - sample.volume_inside);
@@ -260,6 +294,7 @@ void RunSums::means_of(const Window& window, RunResult& result) const {
       moment += sample.slots[s].solids.moment;
     }
     mass.push_back(kilograms);
+    if (moment > 0) heights.push_back(moment / sample.volume);
     // A level bed of height H has its centre at H/2: H = 2 x mean height, whatever the surface
     // does.
     bed.push_back(moment > 0 ? 1 - sample.volume / (area * 2 * moment / sample.volume) : 1);
@@ -267,11 +302,20 @@ void RunSums::means_of(const Window& window, RunResult& result) const {
   const auto mean = estimate_mean(holdup, weights);
   result.mean_holdup = mean.estimate();
   result.independent_samples = mean.independent_samples;
-  result.mean_occurrence = estimate_mean(clusters, weights).estimate();
+  if (!clusters.empty()) result.mean_occurrence = estimate_mean(clusters, weights).estimate();
   result.bed_voidage = estimate_mean(bed, weights).estimate();
   if (density_known() &&
       std::all_of(mass.begin(), mass.end(), [](double m) { return std::isfinite(m); }))
     result.inventory_mass = estimate_mean(mass, weights).estimate();
+  for (const auto& [what, series, unit] :
+       {std::tuple("mean holdup", &holdup, "-"), {"mean height", &heights, "m"}}) {
+    const auto drift = drift_of(*series);
+    const double size = series->empty() ? 0 : std::abs(series->front());
+    if (drift.significance > significant_drift && std::abs(drift.change) > worth_a_word * size)
+      result.problems.push_back(fmt::format(
+          "not steady: the {} drifts by {:.2g} {} over the window ({:.2g} standard errors)", what,
+          drift.change, unit, drift.significance));
+  }
   result.outside_fraction = volume > 0 ? std::max(0., outside / volume) : 0;
   const auto [least, most] = std::minmax_element(volumes.begin(), volumes.end());
   if (volumes.size() > 1 && *most - *least <= 1e-12 * *most)
@@ -328,6 +372,7 @@ RunResult RunSums::finish(const readers::Series& series, const Window& window) &
       profiles_of(kind, window, found, result.problems);
       fields_of(kind, sum, found);
       pdf_of(kind, window, found);
+      axial_temperature_of(kind, window, found);
     }
     found.type = kind.name;
     inventory_of(kind, result);
@@ -337,6 +382,8 @@ RunResult RunSums::finish(const readers::Series& series, const Window& window) &
                       100 * found.temperature_outside));
     result.species.push_back(std::move(found));
   }
+  if (auto edge = sensitivity_.describe(setup.settings.clusters); !edge.empty())
+    result.problems.push_back(std::move(edge));
   result.occurrence = occurrence_;
   result.clusters = std::move(clusters_);
   keep_from(result.clusters, window.first);

@@ -236,7 +236,9 @@ void set_heights(RunSetup& setup) {
   const auto& settings = setup.settings;
   const auto& grid = setup.grid;
   setup.heights = settings.heights;
-  if (setup.heights.empty())
+  if (!settings.wanted.lateral)
+    setup.heights.clear();
+  else if (setup.heights.empty())
     for (const double part : {0.25, 0.5, 0.75})
       setup.heights.push_back(grid.min[up] + part * grid.length(up));
   setup.band = settings.band > 0 ? settings.band : 2 * grid.width(up);
@@ -263,6 +265,25 @@ void set_bubbles(RunSetup& setup) {
   }
   for (const double height : heights)
     setup.bubble_bands.push_back({height, width, layer_weights(setup, height, width)});
+}
+
+/// What the grid is too coarse for; docs/stability.md has the maps.
+void doubt_grid(RunSetup& setup) {
+  const auto& settings = setup.settings;
+  const auto& grid = setup.grid;
+  constexpr int fewest_cells = 5;  // two walls, a core, and what is between
+  if (settings.wanted.lateral && grid.cells[lateral] < fewest_cells)
+    setup.problems.push_back(
+        fmt::format("{} cells across: too few for a lateral profile to tell walls from core",
+                    grid.cells[lateral]));
+  double widest = std::max(grid.width(lateral), grid.width(up));
+  if (!grid.depth_averaged()) widest = std::max(widest, grid.width(depth));
+  if (settings.mapping == "gaussian" && settings.gaussian_width > 0 &&
+      settings.gaussian_width < widest * (1 - 1e-9))
+    setup.problems.push_back(
+        fmt::format("gaussian_width of {:g} m is narrower than a cell ({:g} m): holdups jump as "
+                    "particles cross faces",
+                    settings.gaussian_width, widest));
 }
 
 /// Times on disk are sums of steps: 0.3 s may be written 0.29999999999999998 [s].
@@ -309,6 +330,8 @@ void update_times(RunSetup& setup, const readers::Series& series) {
 RunSetup set_up(const RunSettings& settings, const readers::Series& series) {
   RunSetup setup;
   setup.settings = settings;
+  const auto& wanted = settings.wanted;
+  if (!wanted.species) setup.settings.species.clear();
   const auto log = readers::find_log(series.path(0));
   find_time_step(log, series.has_steps(), setup);
   update_times(setup, series);
@@ -326,33 +349,41 @@ RunSetup set_up(const RunSettings& settings, const readers::Series& series) {
   set_density(series, log, setup);
   set_heights(setup);
   set_bubbles(setup);
-  setup.kernel = make_kernel(settings.mapping, setup.grid);
+  setup.kernel =
+      make_kernel(settings.mapping, setup.grid, {.gaussian_width = settings.gaussian_width});
+  doubt_grid(setup);
 
   const auto axes = bed_axes(settings);
   const auto name = [&](const char* prefix, int k) {
     return prefix + std::string(1, "xyz"[axes[static_cast<std::size_t>(k)]]);
   };
-  setup.has_velocity = in_dumps(series, name("v", lateral)) && in_dumps(series, name("v", up));
+  const bool needs_type =
+      wanted.species || !setup.density.of_type.empty() || !settings.radius.of_type.empty();
+  // Mean fields and clusters have a lateral velocity, profiles need the one along `up` only.
+  const bool needs_lateral = wanted.fields || wanted.clusters;
+  setup.has_velocity =
+      (!needs_lateral || in_dumps(series, name("v", lateral))) && in_dumps(series, name("v", up));
   if (!setup.has_velocity)
     setup.problems.emplace_back("no velocity columns: velocities and mass fluxes are nan");
-  setup.has_temperature = in_dumps(series, settings.temperature_column);
-  if (!setup.has_temperature && settings.temperature_column != "temperature")
+  setup.has_temperature = wanted.temperature && in_dumps(series, settings.temperature_column);
+  if (wanted.temperature && !setup.has_temperature && settings.temperature_column != "temperature")
     throw InputError("run \"{}\": temperature.column: the dumps have no \"{}\" (columns: {})",
                      settings.label, settings.temperature_column, fmt::join(series.columns(), " "));
   setup.request = {
       {name("", lateral)},
       {name("", depth)},
       {name("", up)},
-      {name("v", lateral), setup.has_velocity},
+      {needs_lateral ? name("v", lateral) : "no lateral velocity needed",
+       needs_lateral && setup.has_velocity},
       {name("v", up), setup.has_velocity},
       {setup.radius_in_dumps ? "radius" : "no radius needed", setup.radius_in_dumps},
-      {"type", in_dumps(series, "type")},
-      {"id", false},
+      {needs_type ? "type" : "no type needed", needs_type && in_dumps(series, "type")},
+      {wanted.id_check ? "id" : "no id needed", false},
       {setup.has_temperature ? readers::name_on_disk(series.parts(), settings.temperature_column)
                              : "no temperature",
        setup.has_temperature},
       density_column(setup)};
-  for (const auto& rule : settings.species) setup.request.push_back({rule.column});
+  for (const auto& rule : setup.settings.species) setup.request.push_back({rule.column});
   setup.request_without_id = setup.request;
   setup.request_without_id[column_id] = {"no id needed", false};
   return setup;

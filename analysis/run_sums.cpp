@@ -24,7 +24,8 @@ RunSums::RunSums(const RunSetup& setup, bool keep_blocks, bool keep_contours)
       keep_contours_(keep_contours),
       fields_(block_power, keep_blocks ? kept_blocks : 0),
       profiles_(0, kept_leaves),
-      histograms_(block_power, keep_blocks ? kept_blocks : 0),
+      histograms_(0, kept_leaves),
+      warmth_(0, kept_leaves),
       tracker_(setup.grid),
       bubbles_(setup.grid) {}
 
@@ -48,6 +49,7 @@ void RunSums::add(SnapshotProduct& product, double weight) {
     fields_.at(i).weight += weight;
     profiles_.at(i).weight += weight;
     histograms_.at(i).weight += weight;
+    warmth_.at(i).weight += weight;
   }
   for (std::size_t s = 0; s < product.used; ++s) {
     const auto& slot = product.slots[s];
@@ -55,12 +57,14 @@ void RunSums::add(SnapshotProduct& product, double weight) {
     if (sample.slots.size() <= number) sample.slots.resize(number + 1);
     sample.slots[number] = {slot.solids, slot.temperature};
     if (weight <= 0) continue;
-    fields_.at(i).add(weight, number, slot.fields);
+    if (setup_->settings.wanted.fields) fields_.at(i).add(weight, number, slot.fields);
     profiles_.at(i).add(weight, number, slot.profiles);
     if (!slot.histogram.empty()) histograms_.at(i).add(weight, number, slot.histogram);
+    if (!slot.warmth.empty()) warmth_.at(i).add(weight, number, slot.warmth);
   }
   samples_.push_back(std::move(sample));
 
+  if (weight > 0) sensitivity_.merge(product.sensitivity);
   double area = 0;
   for (auto& cluster : product.image.clusters) {
     cluster.snapshot = i;
@@ -69,10 +73,12 @@ void RunSums::add(SnapshotProduct& product, double weight) {
     if (!keep_contours_) cluster.contours = {};
   }
   const auto& grid = setup_->grid;
-  occurrence_.push_back({time, static_cast<int>(product.image.clusters.size()),
-                         area / (grid.length(lateral) * grid.length(up))});
+  if (setup_->settings.wanted.clusters)
+    occurrence_.push_back({time, static_cast<int>(product.image.clusters.size()),
+                           area / (grid.length(lateral) * grid.length(up))});
   if (weight > 0) {
-    tracker_.link(product.image, setup_->time_known ? time : undefined);
+    if (setup_->settings.wanted.clusters)
+      tracker_.link(product.image, setup_->time_known ? time : undefined);
     if (!setup_->has_velocity)
       for (auto& cluster : product.image.clusters)
         cluster.velocity_x = cluster.velocity_z = undefined;

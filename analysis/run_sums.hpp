@@ -41,8 +41,8 @@ class RunSums {
   /// what is missing, given dumps that show it.
   template <class Archive>
   void archive(Archive& ar) {
-    ar(slots_, fields_, profiles_, histograms_, samples_, occurrence_, clusters_, tracker_,
-       bubbles_, flaws_, without_temperature_, bytes_read_);
+    ar(slots_, fields_, profiles_, histograms_, warmth_, samples_, occurrence_, clusters_, tracker_,
+       bubbles_, sensitivity_, flaws_, without_temperature_, bytes_read_);
   }
 
  private:
@@ -81,18 +81,23 @@ class RunSums {
                    std::vector<std::string>& doubts) const;
   void fields_of(const Species& species, const WeightedSum& sum, SpeciesResult& result) const;
   void pdf_of(const Species& species, const Window& window, SpeciesResult& result) const;
+  void axial_temperature_of(const Species& species, const Window& window,
+                            SpeciesResult& result) const;
+  /// The sums of the window that were kept apart, one sample each for errors.
+  std::vector<WeightedSum> samples_of(const Leaves& sums, const Window& window) const;
   void bed_of(const Window& window, RunResult& result) const;
   void means_of(const Window& window, RunResult& result) const;
 
   const RunSetup* setup_;
   bool keep_contours_;
   std::vector<SlotKey> slots_;
-  Leaves fields_, profiles_, histograms_;
+  Leaves fields_, profiles_, histograms_, warmth_;
   std::vector<Sample> samples_;
   std::vector<OccurrenceSample> occurrence_;
   std::vector<Cluster> clusters_;
   Tracker tracker_;
   BubbleSums bubbles_;
+  ClusterSensitivity sensitivity_;
   readers::Flaws flaws_;
   std::int64_t without_temperature_ = 0;
   std::uint64_t bytes_read_ = 0;

@@ -66,11 +66,30 @@ void archive(Archive& ar, SpeciesRule& rule) {
   ar(name, column, comparison, value);
 }
 
+/// What is made of each snapshot besides its inventory, its bed height and the axial profile: what
+/// is not wanted is neither read for nor computed.
+struct WantedProducts {
+  bool lateral = true;  ///< profiles
+  bool fields = true;   ///< mean fields; needs the lateral velocity
+  bool clusters = true;
+  bool species = true;  ///< each type by itself; needs the type
+  bool temperature = true;
+  bool id_check = true;  ///< no id twice in a snapshot; needs the id of some snapshots
+};
+
+template <class Archive>
+void archive(Archive& ar, WantedProducts& wanted) {
+  auto& [lateral, fields, clusters, species, temperature, id_check] = wanted;
+  ar(lateral, fields, clusters, species, temperature, id_check);
+}
+
 /// Axes are numbered 0 x, 1 y, 2 z here; vectors of the domain are in that order too.
 struct RunSettings {
   std::string label;
   std::string particles;  ///< file, folder or pattern
   readers::Repeated repeated = readers::Repeated::refuse;
+  std::int64_t every = 1;  ///< only every n-th snapshot of the series is read
+  WantedProducts wanted;
   std::vector<std::string> columns;  ///< their names, for dumps that store none
   std::optional<double> time_step;   ///< [s]; else from log.liggghts beside the dumps
   bool time_required = true;         ///< false: without a time step go on, counting steps
@@ -87,6 +106,7 @@ struct RunSettings {
   std::vector<SpeciesRule> species;
   std::optional<std::array<double, 2>> average;  ///< from, to [s]; else `auto`
   std::string mapping = "exact";
+  double gaussian_width = 0;  ///< of that kernel [m]; 0: the widest side of a cell
 
   std::vector<double> heights;  ///< [m]; empty: quarters of the domain
   double band = 0;              ///< [m]; 0: two cells

@@ -110,10 +110,10 @@ class Mapper {
         continue;
       }
       const int of = type_of(i);
-      add_temperature(temperature[i], slot_of({of, -1}));
+      add_temperature(i, temperature[i], slot_of({of, -1}));
       for (std::size_t rule = 0; rule < setup_.settings.species.size(); ++rule)
         if (setup_.settings.species[rule].holds(columns_[column_first_rule + rule][i]))
-          add_temperature(temperature[i], slot_of({of, static_cast<int>(rule)}));
+          add_temperature(i, temperature[i], slot_of({of, static_cast<int>(rule)}));
     }
   }
 
@@ -183,12 +183,14 @@ class Mapper {
     });
   }
 
-  void add_temperature(double t, SlotProduct& slot) {
+  void add_temperature(std::size_t row, double t, SlotProduct& slot) {
     slot.temperature.add(t, out_.temperature_zero);
+    warm_layer(row, t, slot);
     if (!setup_.settings.temperature) return;
     const auto [from, to] = *setup_.settings.temperature;
     const int bins = setup_.settings.temperature_bins;
-    slot.histogram.resize(static_cast<std::size_t>(bins));
+    slot.histogram.resize(static_cast<std::size_t>(bins) + 1);
+    slot.histogram.back() += 1;
     if (t < from || t > to) return;
     // Edges decide, not the rounding of a division: from + k width, the last bin closed.
     const double width = (to - from) / bins;
@@ -196,6 +198,24 @@ class Mapper {
     if (t < from + bin * width) --bin;
     if (bin + 1 < bins && t >= from + (bin + 1) * width) ++bin;
     slot.histogram[static_cast<std::size_t>(bin)] += 1;
+  }
+
+  /// Where the centre is outside the domain the particle counts in no layer.
+  void warm_layer(std::size_t row, double t, SlotProduct& slot) {
+    const auto& grid = setup_.grid;
+    for (const auto& [axis, column] : {std::pair(lateral, column_lateral),
+                                       std::pair(depth, column_depth), std::pair(up, column_up)})
+      if (!(columns_[column][row] >= grid.min[axis] && columns_[column][row] <= grid.max[axis]))
+        return;
+    const double* const radius = data(column_radius);
+    const double r = radius != nullptr ? radius[row] : radius_of(type_of(row));
+    if (!(r > 0 && std::isfinite(r))) return;
+    slot.warmth.resize(2 * static_cast<std::size_t>(grid.cells[up]));
+    const double share = (columns_[column_up][row] - grid.min[up]) / grid.width(up);
+    const int layer = std::min(static_cast<int>(share), grid.cells[up] - 1);
+    double* const q = slot.warmth.data() + 2 * layer;
+    q[0] += sphere_volume(r);
+    q[1] += sphere_volume(r) * t;
   }
 
   const RunSetup& setup_;
@@ -283,15 +303,14 @@ bool ids_wanted(std::size_t i, std::size_t snapshots) {
   return i % sample == 0 || i + 1 == snapshots;
 }
 
-void make_product(const RunSetup& setup, const readers::Series& series, std::size_t i,
-                  SnapshotProduct& out, ProductScratch& scratch) {
+void sum_snapshot(const RunSetup& setup, std::size_t i, SnapshotProduct& out,
+                  ProductScratch& scratch) {
+  const auto& wanted = setup.settings.wanted;
   out.snapshot = i;
   out.used = 0;
   out.volume = out.volume_inside = 0;
   out.without_temperature = 0;
   out.flaws = {};
-  series.read(i, ids_wanted(i, series.size()) ? setup.request : setup.request_without_id,
-              scratch.snapshot, scratch.reader);
   out.bytes_read = scratch.snapshot.bytes_read;
   Mapper mapper(setup, scratch.snapshot, out);
   std::visit([&](const auto& kernel) { mapper.run(kernel); }, *setup.kernel);
@@ -299,10 +318,22 @@ void make_product(const RunSetup& setup, const readers::Series& series, std::siz
   const auto& ids = scratch.snapshot.columns[column_id];
   if (!ids.empty()) readers::find_doubled_ids(ids, i, scratch.marks, out.flaws);
   reduce(setup, out, scratch);
-  out.image = find_clusters(setup.grid, out.holdup, scratch.mass, scratch.mass_vx, scratch.mass_vz,
-                            setup.settings.clusters);
+  out.sensitivity = {};
+  if (wanted.clusters) {
+    const auto& thresholds = setup.settings.clusters;
+    out.image = find_clusters(setup.grid, out.holdup, scratch.mass, scratch.mass_vx,
+                              scratch.mass_vz, thresholds);
+    if (sensitivity_wanted(i)) out.sensitivity.add(setup.grid, out.holdup, thresholds, out.image);
+  }
   out.bed = bed_heights(setup.grid, layer_holdups(setup.grid, out));
   if (setup.settings.bubbles) out.bubbles = make_bubbles(setup, out.holdup, out.bed.surface);
+}
+
+void make_product(const RunSetup& setup, const readers::Series& series, std::size_t i,
+                  SnapshotProduct& out, ProductScratch& scratch) {
+  series.read(i, ids_wanted(i, series.size()) ? setup.request : setup.request_without_id,
+              scratch.snapshot, scratch.reader);
+  sum_snapshot(setup, i, out, scratch);
 }
 
 }  // namespace bedscope::analysis

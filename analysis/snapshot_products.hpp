@@ -7,6 +7,7 @@
 
 #include "analysis/bed_height.hpp"
 #include "analysis/bubbles.hpp"
+#include "analysis/cluster_sensitivity.hpp"
 #include "analysis/clusters.hpp"
 #include "analysis/run_setup.hpp"
 #include "readers/flaws.hpp"
@@ -94,13 +95,14 @@ struct SlotProduct {
   std::vector<double> profiles;  ///< [layer][2], then [height][lateral cell][2]: phi, phi v_up
   SolidsSum solids;
   TemperatureSum temperature;
-  std::vector<double> histogram;  ///< particles a bin, inside the PDF's range
+  std::vector<double> histogram;  ///< particles a bin, and last all with a temperature
+  std::vector<double> warmth;     ///< [layer][2], by centres: volume [m3], volume x T [m3 K]
 };
 
 template <class Archive>
 void archive(Archive& ar, SlotProduct& slot) {
-  auto& [key, fields, profiles, solids, temperature, histogram] = slot;
-  ar(key, fields, profiles, solids, temperature, histogram);
+  auto& [key, fields, profiles, solids, temperature, histogram, warmth] = slot;
+  ar(key, fields, profiles, solids, temperature, histogram, warmth);
 }
 
 struct SnapshotProduct {
@@ -111,6 +113,7 @@ struct SnapshotProduct {
   double temperature_zero = 0;           ///< T0 [K]
   std::int64_t without_temperature = 0;
   ClusterImage image;
+  ClusterSensitivity sensitivity;  ///< of some snapshots
   BedHeights bed;
   BubbleProduct bubbles;       ///< where the study asks for them
   std::vector<double> holdup;  ///< depth-averaged, all types
@@ -121,9 +124,9 @@ struct SnapshotProduct {
 template <class Archive>
 void archive(Archive& ar, SnapshotProduct& product) {
   auto& [snapshot, slots, used, volume, volume_inside, temperature_zero, without_temperature, image,
-         bed, bubbles, holdup, flaws, bytes_read] = product;
+         sensitivity, bed, bubbles, holdup, flaws, bytes_read] = product;
   ar(snapshot, slots, used, volume, volume_inside, temperature_zero, without_temperature, image,
-     bed, bubbles, holdup, flaws, bytes_read);
+     sensitivity, bed, bubbles, holdup, flaws, bytes_read);
 }
 
 /// Buffers of one worker.
@@ -138,7 +141,12 @@ struct ProductScratch {
 /// column is not read for the others.
 bool ids_wanted(std::size_t i, std::size_t snapshots);
 
-/// Reads snapshot i and computes all its sums into `out`, whose buffers are re-used.
+/// Computes all sums of snapshot i, whose columns (as RunSetup::request has them, those of the id
+/// may be missing) are in scratch.snapshot, into `out`, whose buffers are re-used.
+void sum_snapshot(const RunSetup& setup, std::size_t i, SnapshotProduct& out,
+                  ProductScratch& scratch);
+
+/// Reads snapshot i and does the same.
 void make_product(const RunSetup& setup, const readers::Series& series, std::size_t i,
                   SnapshotProduct& out, ProductScratch& scratch);
 

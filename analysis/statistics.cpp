@@ -210,7 +210,7 @@ constexpr std::size_t samples_a_mean = 5;      // of MSER-5
 constexpr std::size_t fewest_for_steady = 20;  // samples
 constexpr std::size_t fewest_kept = 5;         // means: the variance of fewer is small by chance
 constexpr double as_good = 1.1;                // times the minimum
-constexpr double significant_drift = 3;        // standard errors
+constexpr double plain_drift = 3;              // standard errors
 constexpr double significant_jump = 5;         // more, as its place is chosen from the series
 
 /// Least-squares fit of a times a shape to a series, both of zero mean.
@@ -260,7 +260,7 @@ bool changes(std::span<const double> series) {
   const Fit drift = fit(deviations, without_mean(line));
   const Fit leap = fit(deviations, without_mean(step));
   return leap.residue < drift.residue ? leap.significance > significant_jump
-                                      : drift.significance > significant_drift;
+                                      : drift.significance > plain_drift;
 }
 
 /// The rule's statistic for each number of means cut off the front; the last ones are left out.
@@ -281,6 +281,23 @@ std::vector<double> marginal_errors(std::span<const double> series, std::size_t 
 }
 
 }  // namespace
+
+Drift drift_of(std::span<const double> series) {
+  Drift drift;
+  const std::size_t n = series.size();
+  const bool finite =
+      std::all_of(series.begin(), series.end(), [](double x) { return std::isfinite(x); });
+  if (n < fewest_for_steady || !finite || is_constant(series)) return drift;
+  std::vector<double> line(n);
+  std::iota(line.begin(), line.end(), 0.0);
+  line = without_mean(line);
+  const auto deviations = without_mean(series);
+  const double slope =
+      std::inner_product(line.begin(), line.end(), deviations.begin(), 0.0) / sum_of_squares(line);
+  drift.change = slope * static_cast<double>(n - 1);
+  drift.significance = fit(deviations, line).significance;
+  return drift;
+}
 
 SteadyStart steady_start(std::span<const double> series) {
   SteadyStart result;

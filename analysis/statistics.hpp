@@ -68,6 +68,17 @@ struct SteadyStart {
 /// (2000) 755.
 SteadyStart steady_start(std::span<const double> series);
 
+/// A straight line through a series by least squares.
+struct Drift {
+  double change = 0;        ///< from its first to its last sample
+  double significance = 0;  ///< |change| over its standard error, correlation included
+};
+
+/// Of a constant series, one with a value that is not finite, or fewer than 20 samples: 0, 0.
+/// Of a steady series in 1.2 % of all cases beyond significant_drift.
+Drift drift_of(std::span<const double> series);
+inline constexpr double significant_drift = 2.5;
+
 /// Integrated autocorrelation time in samples.
 struct AutocorrelationTime {
   double value = 1;           ///< 1 + 2 sum rho(k); 1 for white noise

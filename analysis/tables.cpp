@@ -100,7 +100,8 @@ void write_temperature(std::span<const RunResult> runs, const std::filesystem::p
 }
 
 void write_temperature_pdf(std::span<const RunResult> runs, const std::filesystem::path& path) {
-  CsvWriter table(path, "run,type,bin_centre [-],probability_density [-]");
+  CsvWriter table(path,
+                  "run,type,bin_centre [-],probability_density [-]");
   for (const RunResult& run : runs)
     for (const SpeciesResult& species : run.species) {
       const auto bins = static_cast<double>(species.temperature_pdf.size());
@@ -108,6 +109,16 @@ void write_temperature_pdf(std::span<const RunResult> runs, const std::filesyste
         table.row(run.label, species.type, (static_cast<double>(i) + 0.5) / bins,
                   species.temperature_pdf[i]);
     }
+  table.commit();
+}
+
+void write_axial_temperature(std::span<const RunResult> runs, const std::filesystem::path& path) {
+  CsvWriter table(path, "run,type,z [m],temperature [K],temperature_ci95 [K]");
+  for (const RunResult& run : runs)
+    for (const SpeciesResult& species : run.species)
+      for (std::size_t i = 0; i < species.axial_temperature.size(); ++i)
+        table.row(run.label, species.type, species.axial.coordinate[i],
+                  species.axial_temperature[i].value, species.axial_temperature[i].ci95);
   table.commit();
 }
 
@@ -131,8 +142,10 @@ void write_tables(std::span<const RunResult> runs, const std::filesystem::path& 
   });
   if (temperature) {
     write_temperature(runs, folder / "temperature.csv");
+    write_axial_temperature(runs, folder / "temperature_axial.csv");
   } else {
     remove_file(folder / "temperature.csv");
+    remove_file(folder / "temperature_axial.csv");
   }
   if (pdf) {
     write_temperature_pdf(runs, folder / "temperature_pdf.csv");

@@ -3,7 +3,9 @@
 // docs/results.md.
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -14,9 +16,8 @@ namespace bedscope::analysis {
 /// Writes axial_profile, lateral_profile, inventory, clusters and cluster_occurrence (.csv) into
 /// `folder`, with their header alone where there are no rows; temperature and temperature_pdf only
 /// where a run has a temperature (or a PDF), else one left there earlier is removed; and the tables
-/// of bed_tables.hpp and of the gas (gas_tables.hpp). read_tables() does not read these back. Times
-/// are nan where a run's are not known, masses and mass fluxes where its density is not. Throws
-/// FileError.
+/// of bed_tables.hpp and of the gas (gas_tables.hpp). Times are nan where a run's are not known,
+/// masses and mass fluxes where its density is not. Throws FileError.
 void write_tables(std::span<const RunResult> runs, const std::filesystem::path& folder);
 
 /// The reverse: what the tables in `folder` (or in its subfolder tables/) tell of the run `label`.
@@ -35,5 +36,12 @@ void write_tables(std::span<const RunResult> runs, const std::filesystem::path& 
 /// Throws InputError where there is no table or no such run, FormatError
 /// ("path: line N: expected ..., found ...") and FileError.
 RunResult read_tables(const std::filesystem::path& folder, const std::string& label);
+
+/// The averaging window of a result that was read from tables, whose series go on outside it: the
+/// rows with from <= t <= to, or for nothing the steady part of the inventory ("auto": from a block
+/// of 16 rows on; fewer than 20 rows are taken whole). Gives also the bed's means and the pressure
+/// drop's over it. Where no row has a time the window's ends are from and to alone.
+/// Throws InputError where the tables have times and none is in the window.
+void choose_window(RunResult& run, const std::optional<std::array<double, 2>>& average);
 
 }  // namespace bedscope::analysis

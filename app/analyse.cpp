@@ -73,7 +73,7 @@ void tell(const std::vector<RunResult>& results, const Options& options) {
                result.seconds);
     if (result.snapshots_kept > 0)
       fmt::print("  {} of {} snapshots were kept by the analysis before\n", result.snapshots_kept,
-                 result.occurrence.size());
+                 result.bed.samples.size());
     for (const auto& problem : result.problems) fmt::print("  note: {}\n", problem);
   }
   fmt::print("{}\n", (std::filesystem::path(options.folder) /
@@ -146,7 +146,8 @@ void follow(const Study& study, const Options& options, OutputFolder& output) {
         if (!options.common.quiet)
           for (const auto& result : results)
             fmt::print("{}: {} snapshots, mean holdup {:.4g} +- {:.2g}\n", result.label,
-                       result.occurrence.size(), result.mean_holdup.value, result.mean_holdup.ci95);
+                       result.bed.samples.size(), result.mean_holdup.value,
+                       result.mean_holdup.ci95);
       }
     } catch (const FileError& error) {  // nothing there yet, or the disk is full
       wait_for(error);

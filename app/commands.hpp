@@ -25,9 +25,11 @@ int exit_code_of(const std::function<int()>& program);
 
 void add_common(CLI::App& command, Common& common);
 void add_analyse(CLI::App& app);
+void add_case(CLI::App& app);
 void add_curves(CLI::App& app);
 void add_digitise(CLI::App& app);
 void add_info(CLI::App& app);
+void add_tradeoff(CLI::App& app);
 void add_validate(CLI::App& app, int& exit_code);
 
 /// The curves that come with bedscope: installed beside the program, or in its source tree.

@@ -10,6 +10,7 @@
 #include "app/commands.hpp"
 #include "readers/error.hpp"
 #include "validation/curves.hpp"
+#include "validation/theory.hpp"
 
 namespace bedscope::app {
 namespace {
@@ -51,11 +52,34 @@ void list(const Curves& curves) {
   }
 }
 
+void list_theories() {
+  fmt::print("\nClosed forms, as against = \"theory:NAME\" with = {{ ... }} of a check:\n");
+  for (const auto& theory : validation::theories())
+    fmt::print("{:<42} {:<5} {}\n", fmt::format("theory:{}", theory.name), theory.unit,
+               theory.source);
+}
+
 void line(const char* what, const std::string& text) {
   if (!text.empty()) fmt::print("  {:<12} {}\n", what, text);
 }
 
-void show(const CurveSet& set) {
+/// A selection that gives one curve, as an example of how, and what is assumed of such a curve.
+void show_example(const Curves& curves, const CurveSet& set) {
+  std::string selection = set.name;
+  for (const auto& parameter : set.parameters)
+    if (parameter.values.size() > 1 && !parameter.title.unit.empty())
+      selection += (selection == set.name ? "?" : "&") + parameter.title.name + "=" +
+                   parameter.values.front();
+  try {
+    const auto curve = curves.curve(selection);
+    line("for example", selection);
+    for (const auto& assumption : curve.assumptions) line("assumed", assumption);
+  } catch (const InputError&) {
+    return;  // a table, a set to be supplied, parameters that depend on each other
+  }
+}
+
+void show(const Curves& curves, const CurveSet& set) {
   const auto& about = set.about;
   fmt::print("{}\n", set.name);
   line("title", about.title);
@@ -73,10 +97,20 @@ void show(const CurveSet& set) {
     if (parameter.values.size() <= 24)
       line("choose",
            fmt::format("{} = {}", parameter.title.text(), fmt::join(parameter.values, ", ")));
+  show_example(curves, set);
   for (const auto& [key, value] : about.conditions) line("condition", key + ": " + value);
   for (const auto& caveat : about.caveats) line("caveat", caveat);
   for (const auto& check : about.checks) line("checked", check);
   line("file", set.path);
+}
+
+void show(const validation::NamedTheory& theory) {
+  fmt::print("theory:{}\n", theory.name);
+  line("gives", std::string(theory.unit));
+  line("source", std::string(theory.source));
+  line("limits", std::string(theory.limits));
+  line("with", fmt::format("{}", fmt::join(theory.needed, ", ")));
+  line("or also", fmt::format("{}", fmt::join(theory.optional, ", ")));
 }
 
 void show_points(const Curve& curve) {
@@ -97,9 +131,14 @@ void run(const Options& options) {
     fmt::print("{}\n", all.dump(2, ' ', false, Json::error_handler_t::replace));
     return;
   }
-  if (options.name.empty()) return list(curves);
+  if (options.name.empty()) {
+    list(curves);
+    return list_theories();
+  }
+  for (const auto& theory : validation::theories())
+    if (options.name == fmt::format("theory:{}", theory.name)) return show(theory);
   for (const auto& set : curves.sets())
-    if (set.name == options.name) return show(set);
+    if (set.name == options.name) return show(curves, set);
   show_points(curves.curve(options.name));
 }
 

@@ -2,6 +2,7 @@
 // bedscope-digitise: the program behind `bedscope digitise`.
 #include <fmt/format.h>
 
+#include <deque>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -92,11 +93,13 @@ void run_digitise(const Options& options) {
                          options.figure, other.image, image);
     products.push_back(digitise_one(image, file.figure, csv));
   }
-  for (const auto& product : products) {  // all of them, or none
-    analysis::write_file(product.csv, product.table);
-    analysis::write_file(product.overlay, product.picture);
-    say(product, options.common);
+  std::deque<analysis::OutputFile> outputs;  // all of them, or none
+  for (const auto& product : products) {
+    analysis::write_part(outputs.emplace_back(product.csv), product.table);
+    analysis::write_part(outputs.emplace_back(product.overlay), product.picture);
   }
+  for (auto& output : outputs) output.commit();
+  for (const auto& product : products) say(product, options.common);
 }
 
 void run_suggest(const Options& options) {

@@ -45,7 +45,7 @@ int exit_code_of(const std::function<int()>& program) {
     const int code = program();
     return printed() ? code : cannot_print();
   } catch (const CLI::ParseError& error) {
-    fmt::print(stderr, "bedscope: {} (see bedscope --help)\n", error.what());
+    fmt::print(stderr, "bedscope: {} (see bedscope --help)\n", one_line(error.what()));
     return bad_input;
   } catch (const Error& error) {
     return say(error.what(), bad_input);
@@ -55,7 +55,7 @@ int exit_code_of(const std::function<int()>& program) {
     return say("out of memory", internal_error);
   } catch (const std::exception& error) {
     if (!printed()) return cannot_print();
-    fmt::print(stderr, "bedscope: internal error: {}\n", error.what());
+    fmt::print(stderr, "bedscope: internal error: {}\n", one_line(error.what()));
     return internal_error;
   }
 }

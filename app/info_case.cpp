@@ -10,6 +10,8 @@
 #include "readers/error.hpp"
 #include "readers/openfoam_file.hpp"
 #include "readers/openfoam_survey.hpp"
+#include "readers/survey.hpp"
+#include "readers/vtk_gas.hpp"
 
 namespace bedscope::app {
 namespace {
@@ -20,7 +22,10 @@ using readers::FoamRange;
 // What stands for one region of a case.
 struct Region {
   std::string name;  // empty: the default one
-  readers::OpenFoamCase foam;
+  std::string form, layout;
+  std::size_t ranks = 1;
+  bool moving = false;
+  std::shared_ptr<const readers::GasForm> gas;
   readers::FoamSurvey survey;
 };
 
@@ -82,22 +87,23 @@ Json to_json(const readers::FoamCloudSurvey& cloud) {
 }
 
 Json to_json(const Region& region) {
-  const auto& [name, foam, survey] = region;
-  const auto& mesh = foam.mesh();
+  const auto& survey = region.survey;
+  const auto start = region.gas->mesh_at(0);
+  const auto& mesh = *start;
   Json json;
-  json["form"] = "openfoam-case";
-  json["region"] = name;
+  json["form"] = region.form;
+  json["region"] = region.name;
   json["format"] = survey.format;
-  json["layout"] = layout(foam);
-  json["ranks"] = foam.ranks();
-  json["snapshots"] = foam.times().size();
+  json["layout"] = region.layout;
+  json["ranks"] = region.ranks;
+  json["snapshots"] = region.gas->times().size();
   json["times"] = Json::array();
-  for (const auto& time : foam.times()) json["times"].push_back(time.time);
+  for (const auto& time : region.gas->times()) json["times"].push_back(time.time);
   json["cells"] = mesh.cells();
   json["columns"] = Json::array();
   for (const auto& field : survey.fields) json["columns"].push_back(field.name);
   json["bounds"] = {{"min", mesh.min}, {"max", mesh.max}};
-  json["mesh"] = {{"kind", mesh_kind(mesh)}, {"volume", mesh.volume()}, {"moving", foam.moving()}};
+  json["mesh"] = {{"kind", mesh_kind(mesh)}, {"volume", mesh.volume()}, {"moving", region.moving}};
   if (mesh.boxes && mesh.boxes->rectilinear)
     for (const auto& planes : mesh.boxes->faces) json["mesh"]["grid"].push_back(planes.size() - 1);
   json["mesh"]["patches"] = Json::array();
@@ -168,14 +174,13 @@ void print(const readers::FoamCloudSurvey& cloud) {
     fmt::print("  {} {:.6g} to {:.6g} m\n", "xyz"[k], cloud.centres[k].min, cloud.centres[k].max);
 }
 
-void print_mesh(const readers::OpenFoamCase& foam) {
-  const auto& mesh = foam.mesh();
+void print_mesh(const readers::Mesh& mesh, bool moving) {
   std::string kind = mesh.boxes ? "boxes, refined in places" : "general";
   if (mesh.boxes && mesh.boxes->rectilinear)
     kind = fmt::format("box grid of {} x {} x {}", mesh.boxes->faces[0].size() - 1,
                        mesh.boxes->faces[1].size() - 1, mesh.boxes->faces[2].size() - 1);
   line("cells", fmt::format("{}, {}, {:.6g} m3{}", mesh.cells(), kind, mesh.volume(),
-                            foam.moving() ? ", moving (first time shown)" : ""));
+                            moving ? ", moving (first time shown)" : ""));
   for (std::size_t axis = 0; axis < 3; ++axis)
     line(fmt::format("{} mesh", "xyz"[axis]),
          fmt::format("{:.6g} to {:.6g} m", mesh.min[axis], mesh.max[axis]));
@@ -187,15 +192,15 @@ void print_mesh(const readers::OpenFoamCase& foam) {
 }
 
 void print(const Region& region) {
-  const auto& [name, foam, survey] = region;
-  const auto times = foam.times().size();
-  line("form", fmt::format("openfoam-case ({}{}{})", survey.format,
-                           survey.format.empty() ? "" : ", ", layout(foam)));
-  if (!name.empty()) line("region", name);
-  if (foam.ranks() > 1) line("ranks", std::to_string(foam.ranks()));
-  line("times", fmt::format("{}, {:.6g} to {:.6g} s", times, foam.times().front().time,
-                            foam.times().back().time));
-  print_mesh(foam);
+  const auto& survey = region.survey;
+  const auto& all = region.gas->times();
+  const auto times = all.size();
+  line("form", fmt::format("{} ({}{}{})", region.form, survey.format,
+                           survey.format.empty() ? "" : ", ", region.layout));
+  if (!region.name.empty()) line("region", region.name);
+  if (region.ranks > 1) line("ranks", std::to_string(region.ranks));
+  line("times", fmt::format("{}, {:.6g} to {:.6g} s", times, all.front().time, all.back().time));
+  print_mesh(*region.gas->mesh_at(0), region.moving);
   line("fields", std::to_string(survey.fields.size()));
   for (const auto& field : survey.fields) print(field, times);
   for (const auto& cloud : survey.clouds) print(cloud);
@@ -204,15 +209,7 @@ void print(const Region& region) {
   for (const auto& problem : survey.problems) fmt::print("problem: {}\n", problem);
 }
 
-void info_case(const std::string& path, bool full, bool json) {
-  std::vector<Region> regions;
-  for (auto& name : readers::openfoam_regions(path)) {
-    readers::OpenFoamOptions options;
-    options.region = name;
-    auto foam = readers::OpenFoamCase::open(path, options);
-    auto survey = readers::survey(foam, full);
-    regions.push_back({std::move(name), std::move(foam), std::move(survey)});
-  }
+void print(const std::vector<Region>& regions, bool json) {
   if (!json) {
     for (const auto& region : regions) print(region);
     return;
@@ -221,6 +218,27 @@ void info_case(const std::string& path, bool full, bool json) {
   for (std::size_t k = 1; k < regions.size(); ++k)
     whole["other_regions"].push_back(to_json(regions[k]));
   fmt::print("{}\n", whole.dump(2, ' ', false, Json::error_handler_t::replace));
+}
+
+std::vector<Region> regions_of_case(const std::string& path, bool full) {
+  std::vector<Region> regions;
+  for (auto& name : readers::openfoam_regions(path)) {
+    readers::OpenFoamOptions options;
+    options.region = name;
+    const auto foam =
+        std::make_shared<const readers::OpenFoamCase>(readers::OpenFoamCase::open(path, options));
+    regions.push_back({std::move(name), "openfoam-case", layout(*foam), foam->ranks(),
+                       foam->moving(), foam, readers::survey(*foam, full)});
+  }
+  return regions;
+}
+
+Region region_of_vtk(const std::string& path, bool full) {
+  const auto gas = readers::open_vtk_gas(path);
+  bool moving = false;  // as far as the times tell that are read anyway
+  for (const auto time : readers::chosen_snapshots(gas->times().size(), full))
+    moving = moving || gas->mesh_at(time) != gas->mesh_at(0);
+  return {"", "vtk-gas", "cells of VTK files", 1, moving, gas, readers::survey(*gas, full)};
 }
 
 std::string file_form(const readers::FoamFileSummary& file) {
@@ -275,9 +293,11 @@ void info_file(const std::string& path, bool json) {
 bool info_openfoam(const std::string& path, bool full, bool json) {
   std::error_code error;
   if (!readers::openfoam_regions(path).empty())  // a case without a mesh may hold particles
-    info_case(path, full, json);
+    print(regions_of_case(path, full), json);
   else if (std::filesystem::is_regular_file(path, error) && readers::is_openfoam_file(path))
     info_file(path, json);
+  else if (readers::is_vtk_gas(path))
+    print({region_of_vtk(path, full)}, json);
   else
     return false;
   return true;

@@ -36,6 +36,7 @@ Json trend(const std::optional<readers::Trend>& found) {
 
 Json inventory(const InfoReport& report) {
   const auto& survey = report.survey;
+  if (survey.read.empty()) return nullptr;  // dumps that name no columns
   const auto ends = [&](const readers::SnapshotSurvey& snapshot) {
     return Json{{"step", survey.steps[snapshot.index]},
                 {"particles", survey.counts[snapshot.index]},

@@ -182,6 +182,11 @@ Plan make_plan(const analysis::RunSettings& settings, const readers::Series& ser
     const auto size = std::filesystem::file_size(file, ignored);
     if (!ignored) plan.bytes += size;
   }
+  if (!series.named()) {
+    plan.stops = fmt::format("{}: no names of columns: expected columns = [...] in the [[run]]",
+                             series.path(0));
+    return plan;
+  }
   try {
     plan.setup = analysis::set_up(settings, series);
   } catch (const Error& error) {

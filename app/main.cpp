@@ -14,8 +14,10 @@ int main(int argc, char** argv) {
     app::add_info(app);
     app::add_analyse(app);
     app::add_validate(app, exit_code);
+    app::add_tradeoff(app);
     app::add_curves(app);
     app::add_digitise(app);
+    app::add_case(app);
     try {
       app.parse(argc, argv);
     } catch (const CLI::Success& asked) {  // --help, --version

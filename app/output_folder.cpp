@@ -54,7 +54,8 @@ OutputFolder::~OutputFolder() {
 
 void OutputFolder::show_earlier() {
   earlier_.clear();
-  for (const auto* name : {"tables", "figures"}) list_files(folder_, folder_ / name, earlier_);
+  for (const auto* name : {"tables", "figures", "checks"})
+    list_files(folder_, folder_ / name, earlier_);
   list_files(folder_, folder_, earlier_);
   std::erase_if(earlier_, [](const fs::path& file) {
     return !file.has_parent_path() && !file.filename().string().starts_with("results");

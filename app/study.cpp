@@ -192,6 +192,13 @@ void read_scene(Table& table, RunSettings& settings) {
     }
   }
   settings.average = window(table, settings);
+  settings.gaussian_width = table.positive("gaussian_width").value_or(settings.gaussian_width);
+  if (const auto every = table.integer("every")) {
+    if (*every < 1 || *every > 1'000'000)
+      table.fail(*table.find("every"), "{}: expected a whole number from 1 to 1000000, found {}",
+                 table.key("every"), *every);
+    settings.every = *every;
+  }
   if (const auto mapping = table.text("mapping")) {
     static constexpr std::array<std::string_view, 4> kernels{"centre", "exact", "divided",
                                                              "gaussian"};
@@ -199,6 +206,28 @@ void read_scene(Table& table, RunSettings& settings) {
       table.fail(*table.find("mapping"), "{}: expected one of {}, found \"{}\"",
                  table.key("mapping"), fmt::join(kernels, ", "), *mapping);
     settings.mapping = *mapping;
+  }
+}
+
+/// `products = ["axial"]`: what else is neither read for nor computed.
+void read_wanted(Table& study, analysis::WantedProducts& wanted) {
+  const auto names = study.texts("products");
+  if (!names) return;
+  wanted = {false, false, false, false, false, false};
+  const std::map<std::string, bool*> flags{{"lateral", &wanted.lateral},
+                                           {"fields", &wanted.fields},
+                                           {"clusters", &wanted.clusters},
+                                           {"species", &wanted.species},
+                                           {"temperature", &wanted.temperature}};
+  for (const auto& name : *names) {
+    const auto flag = flags.find(name);
+    if (flag != flags.end())
+      *flag->second = true;
+    else if (name != "axial")  // which costs nothing beside the inventory
+      study.fail(*study.find("products"),
+                 "products: expected axial, clusters, fields, lateral, species or temperature, "
+                 "found \"{}\"",
+                 name);
   }
 }
 
@@ -210,6 +239,7 @@ void read_thresholds(Table& table, analysis::ClusterThresholds& thresholds) {
 }
 
 void read_products(Table& study, RunSettings& settings) {
+  read_wanted(study, settings.wanted);
   if (auto profiles = study.table("profiles")) {
     settings.heights = profiles->numbers("heights").value_or(std::vector<double>{});
     settings.band = profiles->positive("band").value_or(0);
@@ -339,7 +369,13 @@ Study read_study(const std::string& path) {
     scene->finish();
   }
   read_products(table, shared);
-  table.find("tradeoff");  // for another command
+  if (auto tradeoff = table.table("tradeoff")) {
+    auto& wishes = study.tradeoff;
+    wishes.tolerance = tradeoff->positive("tolerance").value_or(wishes.tolerance);
+    wishes.products = tradeoff->texts("products").value_or(std::vector<std::string>{});
+    if (const auto* node = tradeoff->find("products")) wishes.line = node->source().begin.line;
+    tradeoff->finish();
+  }
   study.checks = validation::read_checks(table);
   auto runs = table.tables("run");
   const auto folder = std::filesystem::path(path).parent_path();

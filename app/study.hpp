@@ -10,6 +10,13 @@
 
 namespace bedscope::app {
 
+/// The keys of [tradeoff].
+struct TradeoffWishes {
+  double tolerance = 0.01;            ///< relative error that is accepted
+  std::vector<std::string> products;  ///< for which; empty: for all
+  std::size_t line = 0;               ///< of `products` in the study
+};
+
 /// One [[run]] with the scene's keys put in where it does not say otherwise.
 struct StudyRun {
   analysis::RunSettings settings;
@@ -21,6 +28,7 @@ struct Study {
   std::string title;
   std::vector<StudyRun> runs;
   std::vector<validation::Check> checks;
+  TradeoffWishes tradeoff;
   std::vector<std::string> curves;  ///< folders of curves of the user's own
 };
 

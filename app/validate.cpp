@@ -11,12 +11,14 @@
 #include "analysis/output_file.hpp"
 #include "analysis/tables.hpp"
 #include "app/commands.hpp"
+#include "app/output_folder.hpp"
 #include "app/progress.hpp"
 #include "app/study.hpp"
 #include "readers/error.hpp"
 #include "report/validation_page.hpp"
 #include "report/validation_summary.hpp"
 #include "validation/curves.hpp"
+#include "validation/reference.hpp"
 #include "validation/verdict.hpp"
 
 namespace bedscope::app {
@@ -40,7 +42,9 @@ void add_heights(Study& study) {
   for (const auto& check : study.checks) {
     const auto height = check.place.at.find("height");
     if (height == check.place.at.end()) continue;
+    const bool of_all = check.run.empty() || check.against.starts_with("run:");
     for (auto& run : study.runs) {
+      if (!of_all && run.settings.label != check.run) continue;
       auto& heights = run.settings.heights;
       if (std::find(heights.begin(), heights.end(), height->second) == heights.end())
         heights.push_back(height->second);
@@ -49,7 +53,11 @@ void add_heights(Study& study) {
 }
 
 RunResult result_of(const StudyRun& run, const Options& options) {
-  if (!run.tables.empty()) return analysis::read_tables(run.tables, run.settings.label);
+  if (!run.tables.empty()) {
+    auto result = analysis::read_tables(run.tables, run.settings.label);
+    analysis::choose_window(result, run.settings.average);
+    return result;
+  }
   Progress progress(run.settings.label, options.common.quiet);
   return analysis::analyse_run(run.settings, {.threads = options.common.threads,
                                               .pictures = false,
@@ -58,12 +66,23 @@ RunResult result_of(const StudyRun& run, const Options& options) {
                                               }});
 }
 
-std::vector<Verdict> judge_all(const Study& study, std::span<const RunResult> results,
-                               const Options& options) {
+validation::Curves open_curves(const Study& study, const Options& options) {
   auto folders = study.curves;
   folders.insert(folders.end(), options.curves.begin(), options.curves.end());
   folders.push_back(curves_folder());
-  const auto curves = validation::Curves::open(folders);
+  return validation::Curves::open(folders);
+}
+
+/// What can be wrong with a check whatever the runs hold is found before hours of reading dumps.
+void look_ahead(const Study& study, const validation::Curves& curves, const Options& options) {
+  std::vector<std::string> labels;
+  for (const auto& run : study.runs) labels.push_back(run.settings.label);
+  for (const auto& check : study.checks)
+    validation::require_reference(check, labels, curves, options.study);
+}
+
+std::vector<Verdict> judge_all(const Study& study, std::span<const RunResult> results,
+                               const validation::Curves& curves, const Options& options) {
   std::vector<Verdict> verdicts;
   for (const auto& check : study.checks) {
     auto of_check = validation::evaluate(check, results, curves, options.study);
@@ -73,19 +92,23 @@ std::vector<Verdict> judge_all(const Study& study, std::span<const RunResult> re
 }
 
 void write_all(const Study& study, const std::vector<RunResult>& results,
-               const std::vector<Verdict>& verdicts, const Options& options) {
-  const std::filesystem::path folder = options.folder;
-  report::ValidationReport report{
-      .title = study.title, .study = options.study, .runs = results, .verdicts = verdicts};
-  if (!options.earlier.empty()) {
-    report.earlier = report::read_earlier(options.earlier);
-    report.earlier_name = options.earlier;
-  }
+               const std::vector<Verdict>& verdicts,
+               const std::vector<report::EarlierVerdict>& earlier, const Options& options,
+               OutputFolder& output) {
+  const auto& folder = output.part();
+  const report::ValidationReport report{.title = study.title,
+                                        .study = options.study,
+                                        .runs = results,
+                                        .verdicts = verdicts,
+                                        .earlier = earlier,
+                                        .earlier_name = options.earlier};
+  output.show_earlier();
   analysis::write_tables(results, folder / "tables");
   report::write_validation_page(report, folder);
   analysis::write_file(folder / "junit.xml", report::junit_text(verdicts, study.title));
   analysis::write_file(folder / "summary.md", report::markdown_text(verdicts, study.title));
   analysis::write_file(folder / "summary.json", report::summary_with_checks(results, verdicts));
+  output.commit();
 }
 
 /// Each assumption is told once, however many checks rest on it.
@@ -112,10 +135,15 @@ int run(const Options& options) {
   if (study.checks.empty())
     throw InputError("{}: no [[check]]: expected at least one", options.study);
   add_heights(study);
+  const auto curves = open_curves(study, options);
+  look_ahead(study, curves, options);
+  std::vector<report::EarlierVerdict> earlier;
+  if (!options.earlier.empty()) earlier = report::read_earlier(options.earlier);
+  OutputFolder output(options.folder);
   std::vector<RunResult> results;
   for (const auto& each : study.runs) results.push_back(result_of(each, options));
-  const auto verdicts = judge_all(study, results, options);
-  write_all(study, results, verdicts, options);
+  const auto verdicts = judge_all(study, results, curves, options);
+  write_all(study, results, verdicts, earlier, options, output);
   if (options.common.json)
     fmt::print("{}", report::summary_with_checks(results, verdicts));
   else if (!options.common.quiet)

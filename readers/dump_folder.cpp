@@ -13,6 +13,9 @@
 #include "readers/source.hpp"
 
 namespace bedscope::readers {
+
+extern const Form vtk_xml;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -103,7 +106,7 @@ std::vector<Index> choose_indices(std::vector<Index> indices, DumpFolder& found)
 
 /// The files of one snapshot, all of one form.
 const Form& form_of(const IndexedSnapshot& snapshot) {
-  const Form* form = nullptr;
+  const Form* form = snapshot.files.empty() ? &vtk_xml : nullptr;  // LIGGGHTS names no pieces then
   for (const auto& file : snapshot.files) {
     const Form* own = nullptr;
     try {
@@ -122,6 +125,7 @@ const Form& form_of(const IndexedSnapshot& snapshot) {
 void add_units(Index& index, Groups& groups, std::vector<Stranger>& strangers) {
   for (auto& snapshot : index.content.snapshots) {
     DumpUnit unit;
+    unit.of_index = snapshot.name;
     unit.name = split_name(snapshot.name);
     unit.time = snapshot.time;
     try {
@@ -156,7 +160,7 @@ std::string not_particles(const DumpGroup& group, DumpFolder& found) {
         if (scan.snapshots[0].particles > 0)
           return {};  // LPP's files of 0 particles have no arrays
       }
-      if (!instead.empty()) return instead;
+      if (!instead.empty() && unit.of_index.empty()) return instead;  // blocks: see the others
     } catch (const CutError&) {
       continue;
     }

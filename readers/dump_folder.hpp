@@ -30,6 +30,7 @@ struct DumpUnit {
   NameParts name;                    ///< of the dump, or of what the index names
   std::vector<IndexedFile> indexed;  ///< where an index names the files; else empty
   std::vector<std::int64_t> pieces;  ///< numbers of the processors; else empty
+  std::string of_index;              ///< the path of what an index calls a snapshot; else empty
   double time = unknown;             ///< [s], of the index
   std::optional<std::int64_t> step_of_name;
   bool last = false;  ///< of the highest step: the one that a killed run leaves cut
@@ -58,9 +59,9 @@ struct DumpFolder {
 DumpFolder sort_out(const std::string& where, std::vector<std::string> paths);
 
 /// Puts the files of a group that are pieces of one snapshot into one unit each
-/// (dump1000.liggghts_0, dump1000.liggghts_1; split1000_0.bin): names that differ in the last
-/// number only, counted from 0, the same steps inside, no particle id in two of them. Says which
-/// pieces are missing.
+/// (dump1000.liggghts_0, dump1000.liggghts_1; split1000_0.bin; p0.1000.dump): names that differ in
+/// one number only, the last where it can be, counted from 0, the same steps inside, no particle id
+/// in two of them. Says which pieces are missing.
 void join_pieces(DumpGroup& group, DumpFolder& found);
 
 }  // namespace bedscope::readers

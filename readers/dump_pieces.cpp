@@ -11,17 +11,26 @@
 namespace bedscope::readers {
 namespace {
 
+/// Where star `k` stands in a stem; a star of the name's own has a backslash before it.
+std::size_t star_at(const std::string& stem, std::size_t k) {
+  std::size_t at = stem.find('*');
+  while (at != stem.npos && ((at > 0 && stem[at - 1] == '\\') || k-- > 0))
+    at = stem.find('*', at + 1);
+  return at;
+}
+
 /// `dump*.liggghts_*`, `split*_*.bin`, `dump.*.*`: the last number stands at the end or before the
-/// suffix, behind "_" or ".".
-bool ends_in_number(const std::string& stem) {
-  const auto star = stem.rfind('*');
-  if (star == stem.npos || star == 0 || (stem[star - 1] != '_' && stem[star - 1] != '.'))
-    return false;
+/// suffix, behind "_" or "."; `dump*_*.vtp`, `p*.*.dump`: others may stand anywhere but there.
+bool may_count_pieces(const std::string& stem, std::size_t k, std::size_t count) {
+  const auto star = star_at(stem, k);
+  if (star == stem.npos) return false;
+  if (k + 1 < count) return true;
+  if (star == 0 || (stem[star - 1] != '_' && stem[star - 1] != '.')) return false;
   return star + 1 == stem.size() || stem[star + 1] == '.';
 }
 
-using Numbers = std::vector<std::string>;                // of a name, without the last
-using Pieces = std::map<std::int64_t, const DumpUnit*>;  // by the last
+using Numbers = std::vector<std::string>;                // of a name, without that of the piece
+using Pieces = std::map<std::int64_t, const DumpUnit*>;  // by that
 
 struct ByValue {
   bool operator()(const Numbers& a, const Numbers& b) const {
@@ -33,13 +42,14 @@ struct ByValue {
 };
 using Candidates = std::map<Numbers, Pieces, ByValue>;
 
-Candidates by_leading_numbers(const std::vector<DumpUnit>& units) {
+/// By all numbers of the names but number `k`.
+Candidates by_other_numbers(const std::vector<DumpUnit>& units, std::size_t k) {
   Candidates candidates;
   for (const auto& unit : units) {
     auto numbers = unit.name.numbers;
-    const auto piece = to_step(numbers.back());
+    const auto piece = to_step(numbers[k]);
     if (!piece || !unit.indexed.empty()) return {};
-    numbers.pop_back();
+    numbers.erase(numbers.begin() + static_cast<std::ptrdiff_t>(k));
     if (!candidates[numbers].emplace(*piece, &unit).second) return {};  // dump_01, dump_1
   }
   return candidates;
@@ -134,13 +144,11 @@ void leave_out_unfinished(Candidates& candidates, const std::string& stem, DumpF
   candidates.erase(last);
 }
 
-}  // namespace
-
-void join_pieces(DumpGroup& group, DumpFolder& found) {
+/// Joins what differs in number `k` of the names only; false where these are no pieces.
+bool join_by(std::size_t k, DumpGroup& group, DumpFolder& found) {
   auto& units = group.units;
-  const auto stem = units.front().name.stem;
-  if (units.size() < 2 || !ends_in_number(stem)) return;
-  auto candidates = by_leading_numbers(units);
+  auto stem = units.front().name.stem;
+  auto candidates = by_other_numbers(units, k);
   std::set<std::int64_t> all;
   const Pieces* some = nullptr;
   for (const auto& [numbers, pieces] : candidates) {
@@ -148,13 +156,14 @@ void join_pieces(DumpGroup& group, DumpFolder& found) {
     if (some == nullptr && pieces.size() > 1) some = &pieces;
   }
   if (all.empty() || *all.begin() != 0 || some == nullptr || !are_pieces(*group.form, *some))
-    return;
+    return false;
   leave_out_unfinished(candidates, stem, found);
   tell_missing(candidates, stem, all, found);
+  stem.erase(star_at(stem, k), 1);
   std::vector<DumpUnit> joined;
   for (const auto& [numbers, pieces] : candidates) {
     DumpUnit unit;
-    unit.name = {stem.substr(0, stem.rfind('*')), numbers};
+    unit.name = {stem, numbers};
     for (const auto& [number, piece] : pieces) {
       unit.files.push_back(piece->files[0]);
       unit.pieces.push_back(number);
@@ -162,6 +171,16 @@ void join_pieces(DumpGroup& group, DumpFolder& found) {
     joined.push_back(std::move(unit));
   }
   units = std::move(joined);
+  return true;
+}
+
+}  // namespace
+
+void join_pieces(DumpGroup& group, DumpFolder& found) {
+  const auto name = group.units.front().name;
+  if (group.units.size() < 2) return;
+  for (auto k = name.numbers.size(); k-- > 0;)
+    if (may_count_pieces(name.stem, k, name.numbers.size()) && join_by(k, group, found)) return;
 }
 
 }  // namespace bedscope::readers

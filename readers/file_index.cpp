@@ -5,10 +5,10 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <span>
 
 #include "readers/error.hpp"
 #include "readers/source.hpp"
+#include "readers/text_file.hpp"
 
 namespace bedscope::readers {
 
@@ -22,23 +22,6 @@ constexpr std::size_t largest_index = std::size_t{64} << 20;  // 10^5 snapshots 
 constexpr std::size_t deepest = 4;                            // collection, blocks, pieces, file
 constexpr std::size_t most_names = 1'000'000;  // blocks of blocks of blocks ask for any number
 
-std::string whole_text(const std::string& path) {
-  constexpr std::size_t piece = 1U << 16;
-  Source source(path);
-  std::string text;
-  std::size_t got = 0;
-  do {
-    text.resize(text.size() + piece);
-    got = source.read(std::span(text).last(piece));
-    text.resize(text.size() - piece + got);
-    if (text.size() > largest_index)
-      throw FormatError("{}: an index of more than {} MB is not accepted", path,
-                        largest_index >> 20);
-  } while (got == piece);
-  if (!source.cut().empty()) throw CutError("{}: {}", path, source.cut());
-  return text;
-}
-
 /// Follows the names from index to index.
 class Resolver {
  public:
@@ -49,8 +32,9 @@ class Resolver {
     std::vector<IndexedSnapshot> found;
     std::string missing;  // told at the end: what else is named has to be known
     const IndexEntry* before = nullptr;
-    const auto entries = form.read(path, whole_text(path));
-    if (entries.empty()) throw FormatError("{}: names no files", path);
+    const auto entries = form.read(path, read_text(path, largest_index));
+    if (entries.empty() && !form.one_snapshot) throw FormatError("{}: names no files", path);
+    if (entries.empty()) found.push_back({path, unknown, {}});  // no process had particles
     for (const auto& entry : entries) {
       IndexedFile file{(fs::path(path).parent_path() / entry.name).lexically_normal().string(),
                        path, fmt::format("{} {}", form.name, entry.name), entry.offset};

@@ -47,9 +47,9 @@ struct IndexedFile {
 };
 
 struct IndexedSnapshot {
-  std::string name;       ///< the path whose numbers tell the step
-  double time = unknown;  ///< [s]
-  std::vector<IndexedFile> files;
+  std::string name;                ///< the path whose numbers tell the step
+  double time = unknown;           ///< [s]
+  std::vector<IndexedFile> files;  ///< none: a snapshot without particles
 };
 
 /// What an index names, indices that it names in turn resolved.

@@ -3,6 +3,7 @@
 //
 //   { "file-series-version" : "1.0", "files" : [ { "name" : "cloud_10.vtp", "time" : 0.001 }, ... ]
 //   }
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "readers/error.hpp"
@@ -26,6 +27,13 @@ nlohmann::json parse(const std::string& path, std::string_view text) {
   }
 }
 
+/// foamToVTK -legacy of v1912 writes "_10" into bed.vtk.series for bed_10.vtk.
+std::string whole_name(const std::string& path, std::string name) {
+  const std::filesystem::path stem = std::filesystem::path(path).stem();  // bed.vtk
+  if (!name.starts_with('_') || name.find('.') != name.npos || !stem.has_extension()) return name;
+  return stem.stem().string() + name + stem.extension().string();
+}
+
 std::vector<IndexEntry> read(const std::string& path, std::string_view text) {
   const auto json = parse(path, text);
   const auto files = json.find("files");
@@ -43,6 +51,7 @@ std::vector<IndexEntry> read(const std::string& path, std::string_view text) {
     // The parser tells no places; a name with escapes keeps that of the one before.
     if (const auto next = text.find('"' + entry.name + '"', at); next != text.npos) at = next + 1;
     entry.offset = at;
+    entry.name = whole_name(path, std::move(entry.name));
     entries.push_back(std::move(entry));
   }
   return entries;

@@ -34,6 +34,17 @@ constexpr std::array strangers{
     Stranger{"<html", "an HTML page, not particles"},
     Stranger{"LIGGGHTS (", "a LIGGGHTS log, not particles"},
     Stranger{"LAMMPS data file", "a LIGGGHTS data file (write_data), not a dump"},
+    Stranger{"LAMMPS (", "a LAMMPS log, not particles"},
+    Stranger{"LammpS RestartT", "a LAMMPS restart file, not a dump"},
+    Stranger{"---\ncreator: LAMMPS", "a dump in YAML, a form not known; use dump custom"},
+    Stranger{"\x89HDF", "an HDF5 file, a form not known for particles; use dump custom"},
+    Stranger{"CDF", "a NetCDF file, a form not known for particles; use dump custom"},
+    Stranger{"\x28\xb5\x2f\xfd", "compressed by zstd: unpack it, or use gzip"},
+    Stranger{"\xfd"
+             "7zXZ",
+             "compressed by xz: unpack it, or use gzip"},
+    Stranger{"\xff\xfeI", "text in UTF-16: save it as UTF-8 or ASCII"},
+    Stranger{"BZh", "compressed by bzip2: unpack it, or use gzip"},
 };
 
 /// `dump xyz`: the number of atoms, "Atoms. Timestep: 100", rows of a type and a position.

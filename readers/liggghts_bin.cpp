@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <map>
 
 #include "readers/columns.hpp"
 #include "readers/error.hpp"
@@ -70,18 +71,28 @@ void skip_chunks(Source& source, const std::string& path, const Header& header) 
   check_sum(path, header, rows, size);
 }
 
-Located locate(const Header& header) {
+using Names = std::shared_ptr<const std::vector<std::string>>;
+
+/// "column 1", ... where none are stored: one list for all snapshots of as many columns, as a
+/// snapshot without rows takes less room in the file than a list in memory.
+Names names_of(const Header& header, std::map<std::int32_t, Names>& unnamed) {
+  if (!header.names.empty()) return std::make_shared<const std::vector<std::string>>(header.names);
+  auto& list = unnamed[header.columns];
+  if (list != nullptr) return list;
+  std::vector<std::string> names;
+  for (std::int32_t k = 1; k <= header.columns; ++k) names.push_back(fmt::format("column {}", k));
+  return list = std::make_shared<const std::vector<std::string>>(std::move(names));
+}
+
+Located locate(const Header& header, std::map<std::int32_t, Names>& unnamed) {
   Located located;
   located.step = header.step;
   located.time = header.time;
   located.particles = header.particles;
   located.offset = header.offset;
   located.box = header.box;
-  auto names = header.names;
-  located.named = !names.empty();
-  for (std::int32_t k = 1; !located.named && k <= header.columns; ++k)
-    names.push_back(fmt::format("column {}", k));
-  located.columns = located.parts = std::make_shared<const std::vector<std::string>>(names);
+  located.named = !header.names.empty();
+  located.columns = located.parts = names_of(header, unnamed);
   return located;
 }
 
@@ -98,13 +109,14 @@ bool only_zeros(Source& source) {
 FileScan scan(const std::string& path, bool /*thorough*/) {
   Source source(path);
   FileScan found;
+  std::map<std::int32_t, Names> unnamed;
   while (true) {
     const auto begin = source.position();
     try {
       const auto header = next_header(source, path);
       if (!header) break;
       skip_chunks(source, path, *header);
-      auto located = locate(*header);
+      auto located = locate(*header, unnamed);
       located.bytes = source.position() - begin;
       if (!located.named && found.unnamed.empty()) found.unnamed = "a binary dump names no columns";
       found.snapshots.push_back(std::move(located));

@@ -18,7 +18,7 @@
 
 namespace bedscope::readers::liggghts_binary {
 
-inline constexpr std::int32_t most_columns = 10'000;
+inline constexpr std::int32_t most_columns = 1000;
 inline constexpr std::size_t longest_text = 1 << 16;
 
 struct Header {

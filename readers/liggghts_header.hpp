@@ -81,6 +81,8 @@ class HeaderReader {
       }
       text.remove_prefix(first_item.size());
       if (text.starts_with("TIMESTEP")) {
+        if (header_.step != no_step)  // killed here, and another run went on in the file
+          fail("\"ITEM: TIMESTEP\" twice, of step {} without its particles", header_.step);
         header_.step = integer("the step");
       } else if (text.starts_with("TIME")) {
         header_.time = number("the time");

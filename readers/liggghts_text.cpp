@@ -123,6 +123,9 @@ std::string incompleteness(const Header& header, const Body& body, const std::st
       return fmt::format(
           "line {}: {} values expected, more than {} found; no line end: file is cut", line,
           columns, columns);
+    if (rows + 1 == declared && words == columns)
+      return fmt::format("line {}: the last value has no blank or line end behind it: file is cut",
+                         line);
     if (rows + 1 == declared)
       return fmt::format("line {}: {} values expected, {} found; no line end: file is cut", line,
                          columns, words);
@@ -270,6 +273,12 @@ FileScan extend(const std::string& path, FileScan known) {
   return find_snapshots(path, std::move(known));
 }
 
+/// 3.0D-03, as Fortran prints it.
+bool has_d_exponent(std::string_view word) {
+  const auto at = word.find_first_of("dD");
+  return at != word.npos && at > 0 && word.find_first_not_of("0123456789+-", at + 1) == word.npos;
+}
+
 /// Says what is wrong with a row that could not be read.
 [[noreturn]] void explain_row(const std::string& path, const Header& header, std::string_view row,
                               std::uint64_t row_index, const ColumnPlan& plan) {
@@ -291,7 +300,7 @@ FileScan extend(const std::string& path, FileScan known) {
         !parse_number(word.data(), word.data() + word.size(), value))
       throw FormatError("{}: line {}, column {}: {} is not a number{}", path, line,
                         header.columns[static_cast<std::size_t>(column)], quote(word),
-                        word.find_first_of("dD") != word.npos ? " (D exponent)" : "");
+                        has_d_exponent(word) ? " (D exponent)" : "");
   }
   throw FormatError("{}: line {}: row cannot be read: {}", path, line, quote(row));
 }

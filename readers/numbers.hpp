@@ -6,6 +6,7 @@
 #include <fast_float/fast_float.h>
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <string_view>
@@ -23,11 +24,17 @@ inline bool parse_any(const char* begin, const char* end, double& value) {
   if (begin == end || *begin == '+' || (plus && *begin == '-')) return false;
   const auto [rest, error] = fast_float::from_chars(begin, end, value);
   if (error == std::errc::result_out_of_range) return rest == end;  // 0 or infinity, rounded
-  return error == std::errc() && rest == end;
+  const std::string_view tail(rest,
+                              error == std::errc() ? static_cast<std::size_t>(end - rest) : 0);
+  if (!tail.starts_with("#")) return error == std::errc() && rest == end;
+  value = tail.starts_with("#INF") ? std::copysign(std::numeric_limits<double>::infinity(), value)
+                                   : std::numeric_limits<double>::quiet_NaN();
+  return tail.starts_with("#INF") || tail.starts_with("#IND") || tail.starts_with("#QNAN");
 }
 }  // namespace detail
 
 /// The double nearest to the decimal number in [begin, end); false where that is not a number.
+/// "1.#INF", "-1.#IND" and "1.#QNAN" are what older programs for Windows print for inf and nan.
 /// Short decimals (%g prints six digits) take a path that is exact by Clinger (1990): both the
 /// digits and the power of ten are doubles, so one rounding is left. Everything else goes to
 /// fast_float.

@@ -79,7 +79,7 @@ OpenFoamCase OpenFoamCase::open(const std::string& path, const OpenFoamOptions& 
   return foam;
 }
 
-const std::vector<OpenFoamTime>& OpenFoamCase::times() const { return impl_->times; }
+const std::vector<GasTime>& OpenFoamCase::times() const { return impl_->times; }
 const std::vector<std::string>& OpenFoamCase::fields_at(std::size_t time) const {
   return impl_->times.at(time).fields;
 }

@@ -10,8 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "readers/openfoam_field.hpp"
-#include "readers/openfoam_mesh.hpp"
+#include "readers/gas_form.hpp"
 #include "readers/snapshot.hpp"
 
 namespace bedscope::readers {
@@ -32,12 +31,6 @@ struct OpenFoamOptions {
   bool mesh_optional = false;
 };
 
-struct OpenFoamTime {
-  std::string name;                 ///< of its directory: 0.1, 1e-05, 2.000e-03
-  double time;                      ///< [s], from uniform/time where that is there
-  std::vector<std::string> fields;  ///< fields of cells, in alphabetic order
-};
-
 /// Is the folder a case: does it hold a mesh, ranks, or times with clouds?
 bool is_openfoam_case(const std::string& folder);
 
@@ -46,7 +39,7 @@ std::vector<std::string> openfoam_regions(const std::string& folder);
 
 /// Opening lists the times, reads the mesh and makes sure that the last time is whole. All further
 /// reading is const, thread-safe, and keeps no file open.
-class OpenFoamCase {
+class OpenFoamCase final : public GasForm {
  public:
   struct Impl;  ///< openfoam_case_impl.hpp
 
@@ -55,21 +48,18 @@ class OpenFoamCase {
   static OpenFoamCase open(const std::string& path, const OpenFoamOptions& options = {});
 
   /// In ascending order, those only that every rank has.
-  const std::vector<OpenFoamTime>& times() const;
+  const std::vector<GasTime>& times() const override;
   const std::vector<std::string>& fields_at(std::size_t time) const;
 
   /// Cells in the order of the whole case where cellProcAddressing gives it, else rank after rank.
   const Mesh& mesh() const;  ///< at the first time
   bool moving() const;       ///< do times bring points or faces of their own?
   /// The mesh at a time: the one of mesh(), or read from disk if the mesh moves.
-  std::shared_ptr<const Mesh> mesh_at(std::size_t time) const;
+  std::shared_ptr<const Mesh> mesh_at(std::size_t time) const override;
 
-  /// Reads one field, values in the order of the mesh. `out` is re-used.
-  /// Throws InputError for a field that is not there, FormatError for one that is wrong.
-  void read(std::size_t time, std::string_view field, FieldValues& out) const;
-
+  void read(std::size_t time, std::string_view field, FieldValues& out) const override;
   /// The files of a field at a time: one, or one a rank.
-  std::vector<std::string> files(std::size_t time, std::string_view field) const;
+  std::vector<std::string> files(std::size_t time, std::string_view field) const override;
 
   /// Lagrangian clouds at a time (kinematicCloud ...); a cloud without parcels may be absent. One
   /// that bears the name of its time (CFDEM in serial) is called particleCloud.
@@ -87,7 +77,7 @@ class OpenFoamCase {
 
   /// Things worth a warning: times that a rank lacks, fields missing at some times, a last time
   /// that is cut (and left out), .gz beside plain files.
-  const std::vector<std::string>& problems() const;
+  const std::vector<std::string>& problems() const override;
   const std::vector<std::string>& regions() const;  ///< besides the default one
   std::size_t ranks() const;                        ///< 1 for a whole case
   bool collated() const;                            ///< are the ranks in common files?

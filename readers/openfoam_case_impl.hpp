@@ -23,7 +23,7 @@ struct OpenFoamCase::Impl {
   std::string region;  // with a "/" behind it, or empty
   std::vector<FoamFolder> folders;
   std::size_t ranks = 0;
-  std::vector<OpenFoamTime> times;
+  std::vector<GasTime> times;
   std::vector<std::string> regions;
   std::vector<std::string> problems;
   std::map<std::string, std::string, std::less<>> classes;  // of the fields, by name

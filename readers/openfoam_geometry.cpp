@@ -66,14 +66,16 @@ std::int32_t plane_at(const std::vector<double>& faces, double x, double toleran
   return static_cast<std::int32_t>(found - faces.begin());
 }
 
-std::optional<BoxCells> recognise_boxes(const CellGeometry& cells) {
-  constexpr double filled = 1e-6;  // see make_mesh
+std::optional<BoxCells> recognise_boxes(const CellGeometry& cells, double resolution) {
   Point thinnest{};
   thinnest.fill(std::numeric_limits<double>::infinity());
   for (std::size_t c = 0; c < cells.volumes.size(); ++c) {
     const Point size = cells.high[c] - cells.low[c];
     const double box = size[0] * size[1] * size[2];
-    if (!(box > 0) || std::abs(cells.volumes[c] - box) > filled * box) return std::nullopt;
+    if (!(box > 0)) return std::nullopt;
+    const double filled =
+        1e-6 + resolution * (1 / size[0] + 1 / size[1] + 1 / size[2]);  // see make_mesh
+    if (filled > 0.1 || std::abs(cells.volumes[c] - box) > filled * box) return std::nullopt;
     for (std::size_t a = 0; a < 3; ++a) thinnest[a] = std::min(thinnest[a], size[a]);
   }
   BoxCells boxes;
@@ -82,7 +84,7 @@ std::optional<BoxCells> recognise_boxes(const CellGeometry& cells) {
   boxes.rectilinear = true;
   for (std::size_t a = 0; a < 3; ++a) {
     // Points of one plane differ in the last digit that is printed: far less than a cell.
-    const double tolerance = 1e-3 * thinnest[a];
+    const double tolerance = std::max(1e-3 * thinnest[a], 2 * resolution);
     std::vector<double> at;
     at.reserve(2 * cells.volumes.size());
     for (const auto& low : cells.low) at.push_back(low[a]);
@@ -144,9 +146,10 @@ CellGeometry cell_geometry(const PolyMesh& mesh) {
   return cells;
 }
 
-Mesh make_mesh(CellGeometry cells) {
+Mesh make_mesh(CellGeometry cells, double resolution) {
   Mesh mesh;
-  mesh.boxes = recognise_boxes(cells);
+  mesh.resolution = resolution;
+  mesh.boxes = recognise_boxes(cells, resolution);
   constexpr double far = std::numeric_limits<double>::infinity();
   mesh.min.fill(far);
   mesh.max.fill(-far);

@@ -69,6 +69,7 @@ struct Mesh {
   std::optional<BoxCells> boxes;  ///< where every cell is a box along the axes
   std::vector<Point> extents;     ///< of the box around each cell [m], where they are not boxes
   Point min{}, max{};             ///< of all points [m]
+  double resolution = 0;          ///< coordinates on disk are rounded to this [m]; 0: to doubles
   /// Patches of all ranks together; those between ranks are left out, and `start` is of the rank
   /// that names the patch first.
   std::vector<FoamPatch> patches;
@@ -89,8 +90,8 @@ struct CellGeometry {
 /// a cell into pyramids about the average of its face centres. Exact for plane faces.
 CellGeometry cell_geometry(const PolyMesh& mesh);
 
-/// The mesh of the cells, boxes recognised: a cell is one if it fills the box around it (its volume
-/// is that of the box to 1e-6, what coordinates of six digits can tell of it).
-Mesh make_mesh(CellGeometry cells);
+/// The mesh of the cells, boxes recognised: a cell is one if it fills the box around it: its volume
+/// is that of the box to 1e-6 and what coordinates that are rounded to `resolution` [m] can tell.
+Mesh make_mesh(CellGeometry cells, double resolution = 0);
 
 }  // namespace bedscope::readers

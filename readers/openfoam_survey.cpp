@@ -12,13 +12,16 @@ namespace {
 
 class Surveyor {
  public:
-  explicit Surveyor(const OpenFoamCase& foam) : foam_(foam) { found_.problems = foam.problems(); }
+  /// `clouds`: the same case, or null where the form has none.
+  Surveyor(const GasForm& gas, const OpenFoamCase* clouds) : gas_(gas), clouds_of_(clouds) {
+    found_.problems = gas.problems();
+  }
 
   void count_times() {
-    for (std::size_t t = 0; t < foam_.times().size(); ++t) {
-      for (const auto& name : foam_.fields_at(t)) ++fields_[name].times;
-      for (const auto& name : foam_.clouds_at(t)) {
-        const auto parcels = foam_.parcels(t, name).value_or(0);
+    for (std::size_t t = 0; t < gas_.times().size(); ++t) {
+      for (const auto& name : gas_.times()[t].fields) ++fields_[name].times;
+      for (const auto& name : clouds_at(t)) {
+        const auto parcels = clouds_of_->parcels(t, name).value_or(0);
         auto& cloud = clouds_[name];
         cloud.parcels[0] = cloud.times == 0 ? parcels : std::min(cloud.parcels[0], parcels);
         cloud.parcels[1] = std::max(cloud.parcels[1], parcels);
@@ -29,8 +32,8 @@ class Surveyor {
 
   void read(std::size_t time) {
     ++found_.times_read;
-    for (const auto& name : foam_.fields_at(time)) add_field(time, name);
-    for (const auto& name : foam_.clouds_at(time)) add_cloud(time, name);
+    for (const auto& name : gas_.times()[time].fields) add_field(time, name);
+    for (const auto& name : clouds_at(time)) add_cloud(time, name);
   }
 
   FoamSurvey finish() {
@@ -49,10 +52,14 @@ class Surveyor {
   }
 
  private:
+  std::vector<std::string> clouds_at(std::size_t time) const {
+    return clouds_of_ != nullptr ? clouds_of_->clouds_at(time) : std::vector<std::string>();
+  }
+
   void add_field(std::size_t time, const std::string& name) {
     auto& field = fields_[name];
     try {
-      foam_.read(time, name, values_);
+      gas_.read(time, name, values_);
     } catch (const CodeError& error) {  // the start of a case that was never run
       found_.problems.emplace_back(error.what());
       return;
@@ -66,7 +73,7 @@ class Surveyor {
     add_to_ranges(values_.values, field.ranges);
     if (values_.non_finite.values > 0 && field.non_finite == 0)
       first_non_finite_[name] = fmt::format("{}: time {}: cell {} is nan or inf", name,
-                                            foam_.times()[time].name, values_.non_finite.first);
+                                            gas_.times()[time].name, values_.non_finite.first);
     field.non_finite += values_.non_finite.values;
     if (!values_.uniform)
       found_.format =
@@ -75,9 +82,9 @@ class Surveyor {
 
   void add_cloud(std::size_t time, const std::string& name) {
     auto& cloud = clouds_[name];
-    const auto columns = foam_.cloud_columns(time, name);
+    const auto columns = clouds_of_->cloud_columns(time, name);
     if (columns.size() >= cloud.columns.size()) cloud.columns = columns;
-    for (auto& problem : foam_.read_cloud(
+    for (auto& problem : clouds_of_->read_cloud(
              time, name, {{"x"}, {"y"}, {"z"}, {"radius", false}, {"nParticle", false}}, snapshot_))
       found_.problems.push_back(std::move(problem));
     for (std::size_t k = 0; k < 5; ++k)
@@ -85,7 +92,8 @@ class Surveyor {
         (k < 3 ? cloud.centres[k] : k == 3 ? cloud.radius : cloud.particles).add(value);
   }
 
-  const OpenFoamCase& foam_;
+  const GasForm& gas_;
+  const OpenFoamCase* clouds_of_;
   FoamSurvey found_;
   std::map<std::string, FoamFieldSurvey> fields_;
   std::map<std::string, std::string> first_non_finite_;
@@ -113,11 +121,18 @@ bool FoamFieldSurvey::kinematic_pressure() const {
          dimensions[2] == -2 && (name == "p" || name.starts_with("p_") || name.starts_with("p."));
 }
 
-FoamSurvey survey(const OpenFoamCase& foam, bool full) {
-  Surveyor surveyor(foam);
+namespace {
+
+FoamSurvey survey(const GasForm& gas, const OpenFoamCase* clouds, bool full) {
+  Surveyor surveyor(gas, clouds);
   surveyor.count_times();
-  for (const auto time : chosen_snapshots(foam.times().size(), full)) surveyor.read(time);
+  for (const auto time : chosen_snapshots(gas.times().size(), full)) surveyor.read(time);
   return surveyor.finish();
 }
+
+}  // namespace
+
+FoamSurvey survey(const OpenFoamCase& foam, bool full) { return survey(foam, &foam, full); }
+FoamSurvey survey(const GasForm& gas, bool full) { return survey(gas, nullptr, full); }
 
 }  // namespace bedscope::readers

@@ -61,5 +61,7 @@ struct FoamSurvey {
 /// Reads all fields and clouds of the first time, the last and eight between, or of all (`full`).
 /// Throws FormatError for what is wrong in them.
 FoamSurvey survey(const OpenFoamCase& foam, bool full);
+/// The same of another form of gas: fields only.
+FoamSurvey survey(const GasForm& gas, bool full);
 
 }  // namespace bedscope::readers

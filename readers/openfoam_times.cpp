@@ -119,20 +119,7 @@ void OpenFoamCase::Impl::find_fields() {
 // A field that comes later than the start (a mean) or only belongs to it (an initial value) is as
 // it should be; one that comes and goes is not.
 void OpenFoamCase::Impl::tell_missing() {
-  for (const auto& [name, class_name] : classes) {
-    std::vector<std::string> lacking;
-    std::size_t having = 0;
-    bool first = false;
-    for (std::size_t t = 0; t < times.size(); ++t) {
-      const bool there = std::binary_search(times[t].fields.begin(), times[t].fields.end(), name);
-      if (there && t == 0) first = true;
-      if (there) ++having;
-      if (!there && having > 0) lacking.push_back(times[t].name);
-    }
-    if (lacking.empty() || (first && having == 1)) continue;
-    problems.push_back(fmt::format("{}: field {} is missing at {} of {} times, first at {}", root,
-                                   name, lacking.size(), times.size(), lacking.front()));
-  }
+  for (auto& line : missing_fields(root, times)) problems.push_back(std::move(line));
 }
 
 // A run that was killed while writing leaves its last time cut.

@@ -126,7 +126,9 @@ void Series::open_unit(const DumpUnit& unit) {
   particles.indexed.clear();
   for (std::size_t k = 0; k < unit.files.size(); ++k) {
     const auto& path = unit.files[k];
-    auto scan = scan_file(*form_, path, unit.last, options_.index);
+    // Only a form whose glance tells all tells the copies of other parts' particles.
+    const bool thorough = unit.last || (unit.files.size() > 1 && !form_->glance_tells);
+    auto scan = scan_file(*form_, path, thorough, options_.index);
     if (!scan.not_particles.empty()) {
       left_out_.push_back(fmt::format("{}: {}", path, scan.not_particles));
       continue;
@@ -138,6 +140,10 @@ void Series::open_unit(const DumpUnit& unit) {
     particles.files.push_back(path);
     if (!unit.indexed.empty()) particles.indexed.push_back(unit.indexed[k]);
     scans.push_back(std::move(scan));
+  }
+  if (scans.empty() && !unit.of_index.empty()) {  // LIGGGHTS writes no block of no particles
+    particles.files.push_back(unit.of_index);
+    scans.emplace_back().snapshots.emplace_back();
   }
   if (!scans.empty()) join(particles, std::move(scans));
 }
@@ -257,6 +263,15 @@ void Series::name_columns(const std::string& path, FileScan& scan) {
   }
 }
 
+void Series::thin(std::size_t n) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < entries_.size(); i += n) {
+    if (kept != i) entries_[kept] = std::move(entries_[i]);
+    ++kept;
+  }
+  entries_.resize(kept);
+}
+
 std::int64_t Series::particles(std::size_t i) const {
   std::int64_t sum = 0;
   for (const auto& part : entries_[i].parts) sum += part.where.particles;
@@ -266,8 +281,12 @@ std::int64_t Series::particles(std::size_t i) const {
 void Series::read(std::size_t i, const Request& request, Snapshot& out, Scratch& scratch) const {
   const auto& entry = entries_[i];
   const auto& [file, where] = entry.parts.front();
-  form_->read(files_[file], where, request, out, scratch);
-  if (entry.parts.size() > 1) read_more(entry, request, out, scratch);
+  if (particles(i) == 0) {  // nothing to read, and of an index that names nothing no file to do so
+    out = {.box = where.box, .columns = std::vector<std::vector<double>>(request.size())};
+  } else {
+    form_->read(files_[file], where, request, out, scratch);
+    if (entry.parts.size() > 1) read_more(entry, request, out, scratch);
+  }
   if (static_cast<std::int64_t>(out.particles) != particles(i))
     throw FormatError(
         "{}: expected {} particles, found {}: the file has changed since it was opened", path(i),

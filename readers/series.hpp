@@ -41,6 +41,9 @@ class Series {
   /// repeated step names both places), InputError (two forms).
   static Series open(const std::string& where, const SeriesOptions& options = {});
 
+  /// Keeps every n-th snapshot, from the first on; n >= 1.
+  void thin(std::size_t n);
+
   std::size_t size() const { return entries_.size(); }
   const Form& form() const { return *form_; }
 

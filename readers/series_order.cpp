@@ -6,7 +6,6 @@
 
 #include "readers/error.hpp"
 #include "readers/series.hpp"
-#include "readers/source.hpp"
 
 namespace bedscope::readers {
 
@@ -79,12 +78,12 @@ void Series::take_one_of_repeated(bool by_time) {
                                     options_.repeated == Repeated::first ? "first" : "last"));
 }
 
-/// File and line where an entry begins.
+/// File and place where an entry begins, if other snapshots may be in the file.
 std::string Series::origin(const Entry& entry) const {
   const auto& [file, where] = entry.parts.front();
-  return where.bytes == 0 || where.offset == 0
-             ? files_[file]
-             : fmt::format("{} (line {})", files_[file], line_at(files_[file], where.offset));
+  if (where.bytes == 0) return files_[file];
+  return where.line > 0 ? fmt::format("{} (line {})", files_[file], where.line)
+                        : fmt::format("{} (offset {})", files_[file], where.offset);
 }
 
 /// Two runs in one folder show by a box or columns that change; said once.

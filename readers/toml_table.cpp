@@ -3,9 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <numeric>
 #include <sstream>
+
+#include "readers/text_file.hpp"
 
 namespace bedscope::readers {
 namespace {
@@ -25,13 +26,19 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
+std::string text_of(const TomlTable& table, const toml::node& node, const std::string& what) {
+  if (!node.is_string()) table.fail(node, "{}: expected a text, found {}", what, found_text(node));
+  auto text = node.value_or(std::string{});
+  if (text.find('\0') != text.npos)  // a path would end there
+    table.fail(node, "{}: expected a text without NUL characters", what);
+  return text;
+}
+
 }  // namespace
 
 toml::table parse_toml(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw FileError("{}: cannot be read", path);
-  const std::string content((std::istreambuf_iterator<char>(file)),
-                            std::istreambuf_iterator<char>());
+  constexpr std::size_t longest = std::size_t{16} << 20;
+  const auto content = read_text(path, longest);
   try {
     return toml::parse(content, path);
   } catch (const toml::parse_error& error) {
@@ -78,12 +85,7 @@ const toml::node* TomlTable::find(std::string_view key) {
 std::optional<std::string> TomlTable::text(std::string_view name) {
   const auto* node = find(name);
   if (node == nullptr) return std::nullopt;
-  if (!node->is_string())
-    fail(*node, "{}: expected a text, found {}", key(name), found_text(*node));
-  const auto text = node->value_or(std::string{});
-  if (text.find('\0') != text.npos)  // a path would end there
-    fail(*node, "{}: expected a text without NUL characters", key(name));
-  return text;
+  return text_of(*this, *node, key(name));
 }
 
 std::optional<double> TomlTable::number(std::string_view name) {
@@ -138,10 +140,7 @@ std::optional<std::vector<std::string>> TomlTable::texts(std::string_view name) 
   if (!node->is_array())
     fail(*node, "{}: expected an array of texts, found {}", key(name), found_text(*node));
   std::vector<std::string> values;
-  for (const auto& item : *node->as_array()) {
-    if (!item.is_string()) fail(item, "{}: expected a text, found {}", key(name), found_text(item));
-    values.push_back(item.value_or(std::string{}));
-  }
+  for (const auto& item : *node->as_array()) values.push_back(text_of(*this, item, key(name)));
   return values;
 }
 
@@ -167,7 +166,7 @@ std::vector<TomlTable> TomlTable::tables(std::string_view name) {
 void TomlTable::finish() const {
   for (const auto& [name, node] : *table_)
     if (!known_.contains(std::string(name.str())))
-      throw InputError("{}: line {}: unknown key {}; the nearest known one is {}", *path_,
+      throw InputError("{}: line {}: unknown key {}; the nearest known one is {}", path_of(name),
                        name.source().begin.line, key(name.str()),
                        key(nearest_name(name.str(), known_)));
 }

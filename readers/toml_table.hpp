@@ -35,7 +35,7 @@ class TomlTable {
   template <class... T>
   [[noreturn]] void fail(const toml::node& node, fmt::format_string<T...> text,
                          T&&... values) const {
-    throw InputError("{}: line {}: {}", *path_, node.source().begin.line,
+    throw InputError("{}: line {}: {}", path_of(node), node.source().begin.line,
                      fmt::format(text, std::forward<T>(values)...));
   }
 
@@ -56,6 +56,11 @@ class TomlTable {
   std::vector<TomlTable> tables(std::string_view name);
   const toml::table& raw() const { return *table_; }
   const std::string& path() const { return *path_; }
+  /// The file that a node or key was read from, where tables of several files were merged.
+  template <class Node>
+  const std::string& path_of(const Node& node) const {
+    return node.source().path ? *node.source().path : *path_;
+  }
 
   /// Every key that nobody asked for is an error that names the nearest known one.
   void finish() const;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "readers/file_index.hpp"
+#include "readers/vtk_common.hpp"
 #include "readers/vtk_xml.hpp"
 #include "readers/xml_text.hpp"
 
@@ -30,13 +31,15 @@ std::vector<IndexEntry> entries_of(const std::string& path, std::string_view tex
   XmlReader xml(text, path);
   std::vector<IndexEntry> entries;
   double time = unknown;
-  bool in_time = false;
+  bool in_time = false, single = false;
   for (auto event = xml.next(); event != Event::end; event = xml.next()) {
     if (event == Event::close) in_time = false;
     if (event == Event::text && in_time) time = number(xml, trimmed(xml.text()), "a time");
+    if (event == Event::text && in_time && single) time = as_written(static_cast<float>(time));
     if (event != Event::open) continue;
     in_time = xml.attribute("Name") == "TimeValue" && xml.attribute("format") != "binary" &&
               xml.attribute("format") != "appended";
+    single = xml.attribute("type") == "Float32";
     if (xml.name() != element) continue;
     const auto name = xml.attribute(attribute);
     if (!name && element == "DataSet") continue;  // a block without a file: it is empty

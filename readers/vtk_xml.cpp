@@ -10,6 +10,7 @@
 #include "readers/columns.hpp"
 #include "readers/forms.hpp"
 #include "readers/source.hpp"
+#include "readers/vtk_common.hpp"
 
 namespace bedscope::readers {
 namespace {
@@ -18,21 +19,6 @@ using namespace vtk_xml_file;
 
 // An array with more components is no vector of the field; it gives no columns.
 constexpr std::size_t max_components = 64;
-
-// The whole file, in a buffer that only grows.
-std::string_view read_all(Source& source, std::vector<char>& buffer) {
-  constexpr std::size_t piece = std::size_t{1} << 20;
-  std::size_t length = 0;
-  const std::size_t first = source.compressed() ? piece : source.size_bound() + 1;
-  if (buffer.size() < first) buffer.resize(first);
-  while (true) {
-    length += source.read(std::span(buffer).subspan(length));
-    if (length < buffer.size()) break;
-    buffer.resize(2 * buffer.size());
-  }
-  if (!source.cut().empty()) throw CutError("{}: {}", source.path(), source.cut());
-  return {buffer.data(), length};
-}
 
 const Piece* first_with_points(const Document& document) {
   for (const Piece& piece : document.pieces) {
@@ -143,21 +129,12 @@ bool matches(std::string_view head) {
   return std::find(std::begin(grids), std::end(grids), type) != std::end(grids);
 }
 
-FileScan scan(const std::string& path, bool thorough) {
-  std::vector<char> buffer;
-  Source source(path);
-  const Document document = parse_document(read_all(source, buffer), path);
-  Decoder decoder(document);
+FileScan found_in(const Document& document, Decoder& decoder) {
   FileScan found;
-  found.not_particles = what_instead_of_particles(document, decoder);
-  if (!found.not_particles.empty()) return found;
-  if (thorough) check_arrays(document, decoder, found.problems);
   const std::string_view rest = trimmed(document.bytes.substr(document.end));
   if (!rest.empty()) {
     found.problems.push_back(fmt::format("{} bytes after </VTKFile>", rest.size()));
   }
-  if (!source.trailing().empty()) found.problems.push_back(source.trailing());
-
   Located snapshot;
   snapshot.time = document.time;
   const auto ghosts = ghost_points(document, decoder);
@@ -170,6 +147,39 @@ FileScan scan(const std::string& path, bool thorough) {
   snapshot.columns = std::make_shared<const std::vector<std::string>>(std::move(names));
   snapshot.parts = std::make_shared<const std::vector<std::string>>(flat_columns(document).names);
   found.snapshots.push_back(std::move(snapshot));
+  return found;
+}
+
+// Of a large file, what its tags tell; nothing where they do not tell of particles.
+std::optional<FileScan> glance(const std::string& path) {
+  const auto text = condensed(path);
+  if (!text) return std::nullopt;
+  try {
+    const Document document = parse_document(*text, path, {.condensed = true});
+    Decoder decoder(document);
+    if (!what_instead_of_particles(document, decoder).empty()) return std::nullopt;
+    return found_in(document, decoder);
+  } catch (const FormatError&) {  // told better with the file at hand
+    return std::nullopt;
+  }
+}
+
+FileScan scan(const std::string& path, bool thorough) {
+  if (!thorough) {
+    if (auto found = glance(path)) return *std::move(found);
+  }
+  std::vector<char> buffer;
+  Source source(path);
+  const Document document = parse_document(read_all(source, buffer), path);
+  Decoder decoder(document);
+  FileScan found;
+  found.not_particles = what_instead_of_particles(document, decoder);
+  if (!found.not_particles.empty()) return found;
+  std::vector<std::string> problems;
+  if (thorough) check_arrays(document, decoder, problems);
+  found = found_in(document, decoder);
+  found.problems.insert(found.problems.begin(), problems.begin(), problems.end());
+  if (!source.trailing().empty()) found.problems.push_back(source.trailing());
   return found;
 }
 
@@ -204,14 +214,8 @@ std::size_t drop_ghosts(const Document& document, std::vector<std::vector<double
   Decoder decoder(document);
   const auto ghosts = ghost_points(document, decoder);
   if (ghosts.empty()) return document.points();
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < ghosts.size(); ++i) {
-    if (ghosts[i]) continue;
-    for (auto& column : raw) column[kept] = column[i];
-    ++kept;
-  }
-  for (auto& column : raw) column.resize(kept);
-  return kept;
+  for (auto& column : raw) readers::drop_ghosts(ghosts, column);
+  return static_cast<std::size_t>(std::count(ghosts.begin(), ghosts.end(), false));
 }
 
 void compare_twins(const std::string& path, const FlatColumns& flat, const ColumnPlan& plan,

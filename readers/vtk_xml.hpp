@@ -19,6 +19,8 @@
 
 namespace bedscope::readers {
 
+class Source;
+
 /// The `type` of <VTKFile> ("PolyData", "PPolyData", "Collection" ...) where a file that begins
 /// with `head` is VTK XML, "?" where that element names none; empty where it is something else.
 std::string xml_root_type(std::string_view head);
@@ -71,6 +73,7 @@ struct Piece {
   std::size_t position = 0;
   Arrays coordinates;  ///< one array, or none in a piece without points
   Arrays point_data;
+  Arrays cell_data;  ///< only where asked for
   CellGroup verts, lines, strips, polys, cells;
 };
 
@@ -95,7 +98,20 @@ struct Document {
 /// Finds every array of a file without decoding them (TimeValue excepted). `bytes` must outlive the
 /// document. Throws FormatError where the text is damaged or cut, and where more points are claimed
 /// than the bytes of the file can hold.
-Document parse_document(std::string_view bytes, const std::string& path);
+struct ParseOptions {
+  bool cell_data = false;  ///< arrays of cells too
+  bool condensed = false;  ///< of condensed(): nothing can be said of bytes that are not there
+};
+Document parse_document(std::string_view bytes, const std::string& path,
+                        const ParseOptions& options = {});
+
+/// The text of a large file without the bodies of its large binary arrays (their elements are
+/// empty) and without appended data, most of which is never read. Nothing for a file that is not
+/// worth it, or not as expected: it is to be read as a whole.
+std::optional<std::string> condensed(const std::string& path);
+
+/// The whole file, decompressed, in a buffer that only grows. Throws FileError, CutError.
+std::string_view read_all(Source& source, std::vector<char>& buffer);
 
 /// Memory that is not cleared before it is written to, and that only grows.
 class Buffer {
@@ -163,6 +179,9 @@ class Decoder {
 /// What the file holds instead of particles ("a triangle mesh (64 triangles)"), by the types and
 /// lengths of its cells; empty for particles: points without cells, or with vertices only.
 std::string what_instead_of_particles(const Document& document, Decoder& decoder);
+
+/// The array that tells ghosts; null where none does.
+const DataArray* ghost_array(const Arrays& arrays);
 
 /// True for points that are copies of another piece's; empty where no array tells of such.
 std::vector<bool> ghost_points(const Document& document, Decoder& decoder);

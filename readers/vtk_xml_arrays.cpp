@@ -4,14 +4,16 @@
 // Uncompressed: [bytes] data. Compressed: [blocks] [size of a block] [size of the last one, 0: as
 // the others] [compressed size of each block] blocks. The numbers in brackets have header_type.
 #include <fast_float/fast_float.h>
+#include <libdeflate.h>
 #include <lz4.h>
 #include <lzma.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <memory>
+#include <new>
 #include <type_traits>
 
 #include "readers/base64.hpp"
@@ -36,6 +38,15 @@ std::uint64_t packing_bound(Compressor compressor) {
       break;
   }
   return 1;
+}
+
+// Two to three times as fast as zlib on blocks that are there as a whole (docs/performance.md).
+libdeflate_decompressor* inflater() {
+  thread_local const std::unique_ptr<libdeflate_decompressor,
+                                     decltype(&libdeflate_free_decompressor)>
+      own(libdeflate_alloc_decompressor(), &libdeflate_free_decompressor);
+  if (own == nullptr) throw std::bad_alloc();
+  return own.get();
 }
 
 template <class T>
@@ -347,9 +358,9 @@ void Decoder::block(const DataArray& array, std::uint64_t index, std::string_vie
   std::string_view kind = "block";
   if (good && document_.compressor == Compressor::zlib) {
     kind = "zlib";
-    uLongf length = into.size();
-    good = uncompress(reinterpret_cast<Bytef*>(into.data()), &length,
-                      reinterpret_cast<const Bytef*>(from.data()), from.size()) == Z_OK;
+    std::size_t length = 0;
+    good = libdeflate_zlib_decompress(inflater(), from.data(), from.size(), into.data(),
+                                      into.size(), &length) == LIBDEFLATE_SUCCESS;
     got = length;
   } else if (good && document_.compressor == Compressor::lz4) {
     kind = "lz4";

@@ -4,6 +4,8 @@
 #include <bit>
 #include <charconv>
 
+#include "readers/source.hpp"
+#include "readers/vtk_common.hpp"
 #include "readers/vtk_xml.hpp"
 
 namespace bedscope::readers {
@@ -55,7 +57,8 @@ constexpr NumberName number_names[] = {
 // close tag. Elements that are not known are passed over.
 class DocumentReader {
  public:
-  DocumentReader(std::string_view bytes, const std::string& path) : xml_(bytes, path) {
+  DocumentReader(std::string_view bytes, const std::string& path, bool cell_data)
+      : xml_(bytes, path), cell_data_(cell_data) {
     document_.path = path;
     document_.bytes = bytes;
   }
@@ -182,6 +185,8 @@ class DocumentReader {
       const std::string_view name = xml_.name();
       if (name == "PointData") {
         piece.point_data = read_arrays();
+      } else if (name == "CellData" && cell_data_) {
+        piece.cell_data = read_arrays();
       } else if (name == "Points") {
         piece.coordinates = read_arrays();
       } else if (CellGroup* group = cell_group(piece, name, poly_data)) {
@@ -281,6 +286,7 @@ class DocumentReader {
   }
 
   XmlReader xml_;
+  bool cell_data_;
   Document document_;
   std::optional<DataArray> time_;
 };
@@ -320,6 +326,20 @@ void bound_points(const Document& document) {
 
 }  // namespace
 
+std::string_view read_all(Source& source, std::vector<char>& buffer) {
+  constexpr std::size_t piece = std::size_t{1} << 20;
+  std::size_t length = 0;
+  const std::size_t first = source.compressed() ? piece : source.size_bound() + 1;
+  if (buffer.size() < first) buffer.resize(first);
+  while (true) {
+    length += source.read(std::span(buffer).subspan(length));
+    if (length < buffer.size()) break;
+    buffer.resize(2 * buffer.size());
+  }
+  if (!source.cut().empty()) throw CutError("{}: {}", source.path(), source.cut());
+  return {buffer.data(), length};
+}
+
 std::size_t size_of(Number type) {
   for (const NumberName& known : number_names) {
     if (known.type == type) return known.size;
@@ -340,17 +360,19 @@ std::uint64_t Document::points() const {
   return sum;
 }
 
-Document parse_document(std::string_view bytes, const std::string& path) {
-  DocumentReader reader(bytes, path);
+Document parse_document(std::string_view bytes, const std::string& path,
+                        const ParseOptions& options) {
+  DocumentReader reader(bytes, path, options.cell_data);
   Document document = reader.read();
-  bound_points(document);
+  if (!options.condensed) bound_points(document);
   if (const auto time = reader.time_array()) {
     std::vector<double> values;
     Decoder decoder(document);
     const std::uint64_t tuples = time->tuples.value_or(1);
     if (time->components == 1 && tuples > 0) {
       decoder.decode(*time, tuples, values);
-      document.time = values.front();
+      document.time = time->type == Number::float32 ? as_written(static_cast<float>(values.front()))
+                                                    : values.front();
     }
   }
   return document;

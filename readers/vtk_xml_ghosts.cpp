@@ -1,28 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ghost points of a VTK XML file: copies of points that another file of the snapshot owns.
-// Source: vtkDataSetAttributes::PointGhostTypes; vtkGhostLevels is that array before
-// VTK 6.3.
+// Ghost points of a VTK XML file.
+#include "readers/vtk_common.hpp"
 #include "readers/vtk_xml.hpp"
 
 namespace bedscope::readers::vtk_xml_file {
 
+const DataArray* ghost_array(const Arrays& arrays) {
+  const DataArray* types = find(arrays, "vtkGhostType");
+  return types != nullptr ? types : find(arrays, "vtkGhostLevels");
+}
+
 std::vector<bool> ghost_points(const Document& document, Decoder& decoder) {
-  constexpr unsigned duplicate = 1;
   std::vector<bool> ghosts;
   std::vector<double> values;
   std::size_t row = 0;
   for (const Piece& piece : document.pieces) {
-    const DataArray* types = find(piece.point_data, "vtkGhostType");
-    const DataArray* levels = find(piece.point_data, "vtkGhostLevels");
-    if (piece.points > 0 && (types != nullptr || levels != nullptr)) {
-      decoder.decode(types != nullptr ? *types : *levels, piece.points, values);
+    const DataArray* array = ghost_array(piece.point_data);
+    if (piece.points > 0 && array != nullptr) {
+      decoder.decode(*array, piece.points, values);
       ghosts.resize(document.points());
-      for (std::size_t i = 0; i < values.size(); ++i) {
-        const bool small = values[i] >= 0 && values[i] <= 255;
-        ghosts[row + i] = types == nullptr
-                              ? values[i] > 0
-                              : small && (static_cast<unsigned>(values[i]) & duplicate);
-      }
+      mark_ghosts(array->name, values, row, ghosts);
     }
     row += piece.points;
   }

@@ -17,8 +17,9 @@ namespace {
 
 constexpr double coverage_factor = 1.96;
 constexpr double width = 110, left = 19, right = 4, bottom = 11;  // [mm]
-constexpr double main_height = 55, error_height = 24, gap = 4;
+constexpr double main_height = 46, error_height = 20, gap = 4;
 constexpr const char* data_style = "pt 7 ps 0.35 lc rgb '#000000'";
+constexpr const char* outside_style = "pt 6 ps 0.5 lc rgb '#000000'";
 constexpr const char* result_colour = "#0072B2";
 
 std::vector<Estimate> estimates_of(const validation::Sampled& sampled) {
@@ -26,6 +27,18 @@ std::vector<Estimate> estimates_of(const validation::Sampled& sampled) {
   for (std::size_t i = 0; i < sampled.value.size(); ++i)
     estimates.push_back({sampled.value[i], coverage_factor * sampled.u[i]});
   return estimates;
+}
+
+/// A single value as a level, so that it has a panel like a profile.
+Verdict widened(Verdict verdict) {
+  if (!verdict.result.is_scalar) return verdict;
+  verdict.result.x = {};
+  verdict.result.at = {-1, 1};
+  verdict.result.value.resize(2, verdict.result.value.front());
+  verdict.result.u.resize(2, verdict.result.u.front());
+  for (auto& point : verdict.reference.points) point.x = 0;
+  for (auto& point : verdict.comparison.points) point.x = 0;
+  return verdict;
 }
 
 /// The reference as it was compared: turned round where that was so.
@@ -36,6 +49,11 @@ std::vector<validation::CurvePoint> shown_reference(const Verdict& verdict) {
     points.push_back({point.x, point.reference, 0, point.u_reference});
   points.insert(points.end(), verdict.comparison.outside.begin(), verdict.comparison.outside.end());
   return points;
+}
+
+bool is_outside(const Verdict& verdict, double x) {
+  return std::any_of(verdict.comparison.outside.begin(), verdict.comparison.outside.end(),
+                     [&](const auto& point) { return point.x == x; });
 }
 
 /// Ranges of both panels and what stands under their axes.
@@ -69,18 +87,20 @@ Layout layout_of(const Verdict& verdict, std::span<const Estimate> result, bool 
       .left = left, .bottom = bottom + lower, .width = width - left - right, .height = main_height};
   layout.main.x = exact_axis(x.lo * unit.factor, x.hi * unit.factor, 7);
   layout.main.y = rounded_axis(y.lo, y.hi, 6);
-  layout.main.x_numbers = !with_errors;
+  const bool has_axis = !verdict.result.is_scalar;
+  layout.main.x_numbers = !with_errors && has_axis;
   layout.main.y_label = literal(fmt::format("{}", verdict.result.y.text()));
   layout.main.y_label_gap = 14;
   layout.errors = layout.main;
   layout.errors.bottom = bottom;
   layout.errors.height = error_height;
-  layout.errors.x_numbers = true;
+  layout.errors.x_numbers = has_axis;
   layout.errors.y = rounded_axis(e.lo, e.hi, 4);
   layout.errors.zero_line = true;
-  layout.errors.y_label = literal("error");
-  (with_errors ? layout.errors : layout.main).x_label =
-      literal(fmt::format("{} [{}]", verdict.result.x.name, unit.name));
+  layout.errors.y_label = literal(fmt::format("error [{}]", verdict.result.y.unit));
+  if (has_axis)
+    (with_errors ? layout.errors : layout.main).x_label =
+        literal(fmt::format("{} [{}]", verdict.result.x.name, unit.name));
   return layout;
 }
 
@@ -103,19 +123,24 @@ void draw_main(Canvas& canvas, const Verdict& verdict, const Layout& layout,
                     fmt::format("using 1:2 with lines lc rgb '{}' lw 1.3", result_colour)));
   std::vector<double> x;
   std::vector<Estimate> bars;
-  std::string points;
+  std::string points, outside;
   for (const auto& point : reference) {
     x.push_back(layout.x_factor * point.x);
     bars.push_back({point.y, coverage_factor * point.u_y});
-    points += data_row({x.back(), point.y, bars.back().ci95});
+    (is_outside(verdict, point.x) ? outside : points) +=
+        data_row({x.back(), point.y, bars.back().ci95});
   }
   const double cap = bar_cap * (layout.main.x.hi - layout.main.x.lo) / layout.main.width;
-  if (const auto outline = bar_rows(x, bars, cap); !outline.empty() && !points.empty())
+  if (const auto outline = bar_rows(x, bars, cap); !outline.empty() && !reference.empty())
     layers.push_back(Canvas::layer(canvas.block("bars of the reference: x, value", outline),
                                    "using 1:2 with lines lw 0.6 lc rgb '#000000'"));
-  if (!points.empty())
-    layers.push_back(Canvas::layer(canvas.block("reference: x, value, ci95", points),
-                                   fmt::format("using 1:2 with points {}", data_style)));
+  const auto add_points = [&](const char* name, const std::string& rows_of, const char* style) {
+    if (!rows_of.empty())
+      layers.push_back(Canvas::layer(canvas.block(name, rows_of),
+                                     fmt::format("using 1:2 with points {}", style)));
+  };
+  add_points("reference: x, value, ci95", points, data_style);
+  add_points("reference outside the result: x, value, ci95", outside, outside_style);
   canvas.draw(layers);
 }
 
@@ -150,16 +175,18 @@ std::string place_words(const Verdict& verdict) {
 
 }  // namespace
 
-Figure check_figure(const Verdict& verdict, const std::string& name) {
-  const auto title = place_words(verdict);
-  if (verdict.outcome == validation::Outcome::skipped) return left_out(name, title, verdict.reason);
-  if (verdict.result.is_scalar) return left_out(name, title, "a single value");
+Figure check_figure(const Verdict& judged, const std::string& name) {
+  const auto title = place_words(judged);
+  if (judged.outcome == validation::Outcome::skipped) return left_out(name, title, judged.reason);
+  const auto verdict = widened(judged);
   const bool with_errors = !verdict.comparison.points.empty();
   const auto result = estimates_of(verdict.result);
   auto layout = layout_of(verdict, result, with_errors);
   std::vector<LegendEntry> entries;
   if (!verdict.reference.points.empty())
     entries.push_back({"", data_style, verdict.reference.name});
+  if (!verdict.comparison.outside.empty())
+    entries.push_back({"", outside_style, "outside the result, not compared"});
   entries.push_back({fmt::format("lc rgb '{}' lw 1.3", result_colour), "", verdict.run});
   const double legend = Canvas::legend_height(entries, width - left) + 1;
   Canvas canvas(width, layout.main.bottom + main_height + 2 + legend);

@@ -41,33 +41,84 @@ std::string where(const Verdict& verdict) {
   return text;
 }
 
+/// A figure and the verdicts that it shows, by number.
+struct Shown {
+  std::vector<std::size_t> verdicts;
+  Figure figure;
+};
+
+std::vector<Shown> panels_of(std::span<const Verdict> verdicts) {
+  std::vector<Shown> panels;
+  const auto same = [](const Verdict& a, const Verdict& b) {
+    return a.run == b.run && a.check.place.quantity == b.check.place.quantity &&
+           a.check.place.at == b.check.place.at && a.check.place.species == b.check.place.species &&
+           a.reference.name == b.reference.name &&
+           a.comparison.points.empty() == b.comparison.points.empty();
+  };
+  for (std::size_t k = 0; k < verdicts.size(); ++k) {
+    const auto panel = std::find_if(panels.begin(), panels.end(), [&](const Shown& shown) {
+      return same(verdicts[shown.verdicts.front()], verdicts[k]);
+    });
+    if (panel != panels.end()) {
+      panel->verdicts.push_back(k);
+      continue;
+    }
+    panels.push_back(
+        {{k}, check_figure(verdicts[k], fmt::format("check_{:02}", panels.size() + 1))});
+  }
+  return panels;
+}
+
 std::string history_of(const Verdict& verdict, const ValidationReport& report) {
   const auto key = check_key(verdict);
   const auto before = std::find_if(report.earlier.begin(), report.earlier.end(),
                                    [&](const EarlierVerdict& e) { return e.key == key; });
   if (before == report.earlier.end()) return "new";
-  if (!std::isfinite(before->value)) return before->outcome;
-  return fmt::format("{} ({})", before->outcome, number(before->value, 3));
+  auto text = escaped(before->outcome);
+  if (before->outcome != name_of(verdict.outcome)) text = "<b>" + text + "</b>";
+  if (!std::isfinite(before->value)) return text;
+  return fmt::format("{} ({})", text, number(before->value, 3));
 }
+
+/// What the style sheet of all pages leaves to this one: a table of words that fits on paper.
+constexpr std::string_view own_style = R"(<style>
+  .checks td, .checks th { text-align: left; white-space: normal; overflow-wrap: anywhere; min-width: 0; }
+  .checks .number { white-space: nowrap; }
+  section p { margin: .2rem 0; }
+  section .note { font-size: .82rem; }
+  @media print {
+    .wide { overflow: visible; }
+    .checks { font-size: 8pt; }
+    h2 { font-size: 11pt; margin: 1rem 0 .2rem; }
+    section, figcaption { font-size: 9pt; }
+    section .note, figcaption { font-size: 7.5pt; line-height: 1.3; margin: 0; }
+    figure img { max-height: 74mm; width: auto !important; }
+    pre { columns: 2; }
+  }
+</style>
+)";
 
 std::string table_of(const ValidationReport& report) {
   std::string table =
-      "<div class=\"wide\"><table>\n<thead><tr><th scope=\"col\">Check</th><th>Run</th><th>Against"
-      "</th><th>Metric</th><th>Value</th><th>95 % interval</th><th>Limit</th><th>Verdict</th>";
+      "<div class=\"wide\"><table class=\"checks\">\n<thead><tr><th scope=\"col\">Verdict</th><th>"
+      "Check</th><th>Run</th><th>Against</th><th>Metric</th><th>Value</th><th>95 % "
+      "interval</th><th>"
+      "Limit</th>";
   if (!report.earlier_name.empty()) table += "<th>Before</th>";
   table += "</tr></thead>\n<tbody>\n";
   for (std::size_t k = 0; k < report.verdicts.size(); ++k) {
     const auto& v = report.verdicts[k];
     const bool skipped = v.outcome == Outcome::skipped;
     table += fmt::format(
-        "<tr><th scope=\"row\"><a href=\"#check{}\">{}</a></th><td>{}</td><td>{}</td><td>{}</td>"
-        "<td>{}</td><td>{}</td><td>{} {}</td><td>{}</td>",
-        k + 1, escaped(where(v)), escaped(v.run),
+        "<tr><td>{}</td><th scope=\"row\"><a href=\"#check{}\">{}</a></th><td>{}</td><td>{}</td>"
+        "<td>{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td>"
+        "<td class=\"number\">{} {}</td>",
+        badge(v.outcome), k + 1, escaped(where(v)), escaped(v.run),
         escaped(v.reference.name.empty() ? "–" : v.reference.name), escaped(v.check.metric),
         skipped ? "–" : number(v.metric.value, 3),
-        skipped ? "–" : fmt::format("{} – {}", number(v.metric.lo, 3), number(v.metric.hi, 3)),
-        v.small_is_good ? "≤" : "≥", number(v.limit, 3), badge(v.outcome));
-    if (!report.earlier_name.empty()) table += "<td>" + escaped(history_of(v, report)) + "</td>";
+        skipped ? "–" : fmt::format("{} to {}", number(v.metric.lo, 3), number(v.metric.hi, 3)),
+        v.small_is_good ? "≤" : "≥", number(v.limit, 3));
+    if (!report.earlier_name.empty()) table += "<td>" + history_of(v, report) + "</td>";
     table += "</tr>\n";
   }
   return table + "</tbody></table></div>\n";
@@ -99,24 +150,58 @@ std::string provenance_of(const validation::Curve& curve) {
   return text;
 }
 
-std::string section_of(const Verdict& verdict, const Figure& figure, std::size_t k,
-                       const fs::path& folder) {
-  std::string text =
-      fmt::format("<section id=\"check{}\">\n<h2>{}</h2>\n<p>{}: {}.</p>\n", k + 1,
-                  escaped(figure.title), badge(verdict.outcome), escaped(verdict.reason));
-  if (figure.missing.empty())
+/// A value and the half-width of its 95 % interval.
+std::string with_interval(double value, double u, const std::string& unit) {
+  const auto text =
+      u > 0 ? fmt::format("{} ± {}", number(value, 4), number(1.96 * u, 2)) : number(value, 4);
+  return unit == "-" ? text : text + " " + unit;
+}
+
+std::string picture_of(const Figure& figure, const fs::path& folder) {
+  return fmt::format(
+      "<figure><img alt=\"{}\" style=\"width:{:.0f}mm\" src=\"{}\">\n<figcaption>{}</figcaption>"
+      "</figure>\n",
+      escaped(figure.title), figure.width, picture(figure, folder, false), escaped(figure.caption));
+}
+
+/// One comparison, drawn once, with all the checks made on it.
+std::string section_of(const ValidationReport& report, const Shown& panel, const fs::path& folder) {
+  std::string text = "<section>\n<h2>" + escaped(panel.figure.title) + "</h2>\n";
+  std::set<std::string> assumptions;
+  for (const std::size_t k : panel.verdicts) {
+    const auto& verdict = report.verdicts[k];
+    text += fmt::format("<p id=\"check{}\">{}: {}.</p>\n", k + 1, badge(verdict.outcome),
+                        escaped(verdict.reason));
+    assumptions.insert(verdict.assumptions.begin(), verdict.assumptions.end());
+  }
+  const auto& first = report.verdicts[panel.verdicts.front()];
+  if (first.result.is_scalar && !first.comparison.points.empty()) {
+    const auto& point = first.comparison.points.front();
     text += fmt::format(
-        "<figure><img alt=\"{}\" style=\"width:{:.0f}mm\" src=\"{}\">\n<figcaption>{}</figcaption>"
-        "</figure>\n",
-        escaped(figure.title), figure.width, picture(figure, folder, false),
-        escaped(figure.caption));
-  if (const auto source = provenance_of(verdict.reference); !source.empty())
-    text += "<p class=\"note\">Reference: " + escaped(source) + ".</p>\n";
-  for (const auto& assumption : verdict.assumptions)
+        "<p>Result {}, reference {}.</p>\n",
+        escaped(with_interval(point.result, point.u_result, first.result.y.unit)),
+        escaped(with_interval(point.reference, point.u_reference, first.result.y.unit)));
+  }
+  if (panel.figure.missing.empty()) text += picture_of(panel.figure, folder);
+  for (const auto& assumption : assumptions)
     text += "<p class=\"note\">Assumed: " + escaped(assumption) + ".</p>\n";
-  for (const auto& caveat : verdict.reference.about.caveats)
-    text += "<p class=\"note\">Caveat of the source: " + escaped(caveat) + ".</p>\n";
   return text + "</section>\n";
+}
+
+/// Each reference once: where it comes from and what its source warns of.
+std::string references_of(const ValidationReport& report) {
+  std::string text;
+  std::set<std::string> seen;
+  for (const auto& verdict : report.verdicts) {
+    const auto& curve = verdict.reference;
+    const auto source = provenance_of(curve);
+    if (source.empty() || !seen.insert(curve.name).second) continue;
+    text +=
+        fmt::format("<p class=\"note\"><b>{}</b>: {}.</p>\n", escaped(curve.name), escaped(source));
+    for (const auto& caveat : curve.about.caveats)
+      text += "<p class=\"note\">Caveat: " + escaped(caveat) + ".</p>\n";
+  }
+  return text.empty() ? text : "<section>\n<h2>References</h2>\n" + text + "</section>\n";
 }
 
 std::string text_of(const std::string& path) {
@@ -128,6 +213,11 @@ std::string machine() {
   utsname name{};
   if (::uname(&name) != 0) return "unknown";
   return fmt::format("{} {} {}", name.sysname, name.release, name.machine);
+}
+
+/// "varas_2017/axial_holdup.csv": as people know it, wherever the folder lies.
+std::string set_name(const fs::path& path) {
+  return (path.parent_path().filename() / path.filename()).string();
 }
 
 std::string origins(const ValidationReport& report) {
@@ -142,8 +232,11 @@ std::string origins(const ValidationReport& report) {
   for (const auto& verdict : report.verdicts)
     if (!verdict.reference.path.empty()) curves.insert(verdict.reference.path);
   for (const auto& path : curves)
-    text += fmt::format("<p class=\"note\">{}: hash {}.</p>\n",
-                        escaped(fs::path(path).filename().string()), analysis::fingerprint({path}));
+    text += fmt::format("<p class=\"note\">{}: hash {}.</p>\n", escaped(set_name(path)),
+                        analysis::fingerprint({path}));
+  text += fmt::format("<p class=\"note\">{}: hash {}.</p>\n",
+                      escaped(fs::path(report.study).filename().string()),
+                      analysis::fingerprint({report.study}));
   return text + "<pre style=\"font-size:.75rem;white-space:pre-wrap\">" +
          escaped(text_of(report.study)) + "</pre>\n</section>\n";
 }
@@ -151,32 +244,28 @@ std::string origins(const ValidationReport& report) {
 }  // namespace
 
 void write_validation_page(const ValidationReport& report, const fs::path& folder) {
-  std::vector<Figure> checks, all;
-  for (std::size_t k = 0; k < report.verdicts.size(); ++k)
-    checks.push_back(check_figure(report.verdicts[k], fmt::format("check_{:02}", k + 1)));
+  const auto panels = panels_of(report.verdicts);
   const auto groups = validation::families(report.verdicts);
+  std::vector<Figure> all, drawn;
   for (std::size_t k = 0; k < groups.size(); ++k)
     all.push_back(family_figure(groups[k], fmt::format("quantity_{:02}", k + 1)));
-  std::vector<Figure> drawn = checks;
+  for (const auto& panel : panels) drawn.push_back(panel.figure);
   drawn.insert(drawn.end(), all.begin(), all.end());
   const auto pictures = folder / "checks";
   draw_figures(drawn, pictures, false);
 
   auto page = page_head(report.title);
+  page += own_style;
   page += counts_of(report.verdicts) + table_of(report);
   if (!report.earlier_name.empty())
     page += "<p class=\"note\">Before: " + escaped(report.earlier_name) + ".</p>\n";
-  for (std::size_t k = 0; k < checks.size(); ++k)
-    page += section_of(report.verdicts[k], checks[k], k, pictures);
+  for (const auto& panel : panels) page += section_of(report, panel, pictures);
   for (const auto& figure : all) {
     if (!figure.missing.empty()) continue;
-    page += fmt::format(
-        "<section>\n<h2>{0}</h2>\n<figure><img alt=\"{0}\" style=\"width:{1:.0f}mm\" src=\"{2}\">\n"
-        "<figcaption>{3}</figcaption></figure>\n</section>\n",
-        escaped(figure.title), figure.width, picture(figure, pictures, false),
-        escaped(figure.caption));
+    page += "<section>\n<h2>" + escaped(figure.title) + "</h2>\n" + picture_of(figure, pictures) +
+            "</section>\n";
   }
-  page += origins(report) + "</body>\n</html>\n";
+  page += references_of(report) + origins(report) + "</body>\n</html>\n";
   analysis::write_file(folder / "report.html", page);
 }
 

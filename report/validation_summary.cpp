@@ -134,6 +134,9 @@ std::string summary_with_checks(std::span<const analysis::RunResult> runs,
 }
 
 std::vector<EarlierVerdict> read_earlier(const std::filesystem::path& path) {
+  std::error_code unknown;
+  if (!std::filesystem::is_regular_file(path, unknown))  // a pipe would be waited for
+    throw FileError("{}: no such file", path.string());
   std::ifstream file(path);
   if (!file) throw FileError("{}: cannot be read", path.string());
   std::vector<EarlierVerdict> earlier;

@@ -9,6 +9,10 @@
 
 namespace bedscope::validation {
 
+/// What a single value is of the series in time that it stands for: a reference that is a series
+/// is reduced to the same.
+enum class Statistic { mean, deviation, frequency };
+
 /// A quantity of a run, along an abscissa or (one point, x = 0) a single value.
 struct Sampled {
   Title x, y;
@@ -19,6 +23,8 @@ struct Sampled {
   bool is_scalar = false;        ///< one value, no abscissa
   bool is_distribution = false;  ///< value is a probability density of `at`
   double duration = 0;           ///< [s] averaged over; 0: not known
+  Statistic statistic = Statistic::mean;  ///< of a single value
+  std::vector<std::string> notes;         ///< what is to be said of it, for people
 };
 
 /// Result and reference at one abscissa.

@@ -11,6 +11,7 @@ namespace bedscope::validation {
 /// "holdup [-]" as a header of a table names it.
 struct Title {
   std::string name, unit;  ///< unit empty: none was said
+  bool is_time() const { return unit == "s"; }
   std::string text() const { return unit.empty() ? name : name + " [" + unit + "]"; }
 };
 Title parse_title(std::string_view text);

@@ -103,7 +103,11 @@ double finite(const analysis::CsvReader& rows, std::size_t column) {
 /// Values of a text or number column in the order of numbers where all are numbers.
 std::vector<std::string> ordered(const std::set<std::string>& values) {
   std::vector<std::string> sorted(values.begin(), values.end());
-  if (std::all_of(sorted.begin(), sorted.end(), [](const auto& v) { return to_number(v); }))
+  const auto is_finite = [](const std::string& text) {
+    const auto value = to_number(text);
+    return value && std::isfinite(*value);  // nan has no order
+  };
+  if (std::all_of(sorted.begin(), sorted.end(), is_finite))
     std::sort(sorted.begin(), sorted.end(),
               [](const auto& a, const auto& b) { return *to_number(a) < *to_number(b); });
   return sorted;

@@ -28,7 +28,7 @@ void evaluate(Family& family) {
     variance += (value - mean) * (value - mean) / std::max(1., n - 1);
   family.sigma_experiment = std::sqrt(relative / n);
   family.scatter = std::sqrt(std::max(0., variance - relative / n));
-  family.bias = std::exp(mean + family.scatter * family.scatter / 2);
+  family.bias = std::exp(mean + (family.scatter * family.scatter - relative / n) / 2);
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace bedscope::validation {
 
 /// Model over experiment, over all compared points of a quantity.
 ///
-///   bias    = exp(mean ln(M/E) + scatter^2 / 2)
+///   bias    = exp(mean ln(M/E) + scatter^2 / 2 - sigma_E^2 / 2)
 ///   scatter = sqrt(max(0, var ln(M/E) - sigma_E^2)),  sigma_E^2 = mean (u_E / E)^2
 ///
 /// so that the experiment's own scatter is taken out. Points with M or E not above 0 have no

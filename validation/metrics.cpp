@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <random>
 #include <set>
@@ -103,7 +104,7 @@ double statistic(const Metric& metric, const Comparison& comparison, const Pertu
     largest = std::max(largest, std::abs(error(i)));
   }
   if (metric.name == "relative rmse") return std::sqrt(std::max(0., squares - added)) / m;
-  if (metric.name == "e over u") return std::sqrt(std::max(0., squares - added));
+  if (metric.name == "e over u") return std::sqrt(squares);
   if (metric.name == "relative bias") return std::abs(sum) / m;
   if (metric.name == "relative max error") return largest / m;
   if (metric.name == "max error") return largest;
@@ -131,26 +132,66 @@ void widen(Interval& interval, double value, Interval drawn, bool reflect) {
   interval.hi = std::max(interval.hi, 2 * value - drawn.lo);
 }
 
+/// The z with P(N > z) = share for a normal N, by Newton's method on erfc.
+double normal_quantile(double share) {
+  double z = 2;
+  for (int k = 0; k < 50; ++k) {
+    const double density = std::exp(-z * z / 2) / std::sqrt(2 * std::numbers::pi);
+    z += (std::erfc(z / std::sqrt(2.)) / 2 - share) / density;
+  }
+  return z;
+}
+
+/// Of max |E|: the largest of the points' upper ends, 2.5 % each, for the truth's largest is one of
+/// them; and the largest of their lower ends, 2.5 % for all n together (Bonferroni), for noise
+/// chooses among n. Both hold whatever the correlation between points.
+Interval interval_of_largest(const Comparison& comparison, bool per_mean, bool of_result) {
+  const auto n = static_cast<double>(comparison.points.size());
+  const double outer = normal_quantile(.025), inner = normal_quantile(.025 / n);
+  double m = 0, u_m = 0;
+  for (const auto& point : comparison.points) {
+    m += point.reference / n;
+    u_m += point.u_reference / n;
+  }
+  const double scale = per_mean ? std::abs(m) : 1;
+  Interval interval;
+  for (const auto& point : comparison.points) {
+    const double e = std::abs(point.error());
+    double u = of_result ? point.u_validation() : point.u_reference;
+    if (per_mean) u = std::hypot(u, e * u_m / m);
+    interval.lo = std::max(interval.lo, (e - inner * u) / scale);
+    interval.hi = std::max(interval.hi, (e + outer * u) / scale);
+  }
+  return interval;
+}
+
 Interval interval_of(const Metric& metric, const Comparison& comparison, double value, double noise,
                      bool of_result) {
-  const bool subtracts = metric.name == "relative rmse" || metric.name == "e over u";
+  if (metric.name == "e over u") return {value, value};  // has the uncertainties in it already
+  if (metric.name.ends_with("max error"))
+    return interval_of_largest(comparison, metric.per_mean, of_result);
+  const bool subtracts = metric.name == "relative rmse";
   double added = noise;
   if (metric.name == "relative rmse")
     added += mean_square(comparison, [&](const ComparedPoint& p) {
       return of_result ? p.u_validation() : p.u_reference;
     });
-  if (metric.name == "e over u")
-    added += mean_square(comparison, [&](const ComparedPoint& p) {
-      return (of_result ? p.u_validation() : p.u_reference) / p.u_validation();
-    });
+  const double of_reference = mean_square(comparison, [](const ComparedPoint& p) {
+    return std::hypot(p.u_reference, p.u_interpolation);
+  });
   Interval interval{value, value};
   for (const auto errors : {Errors::independent, Errors::common}) {
     Draw draw;
-    std::vector<double> values;
-    for (int k = 0; k < draws; ++k)
-      values.push_back(
-          statistic(metric, comparison, perturb(comparison, errors, of_result, draw), added));
+    std::vector<double> values, without_reference;
+    for (int k = 0; k < draws; ++k) {
+      const auto drawn = perturb(comparison, errors, of_result, draw);
+      values.push_back(statistic(metric, comparison, drawn, added));
+      if (subtracts)
+        without_reference.push_back(statistic(metric, comparison, drawn, added + of_reference));
+    }
     widen(interval, value, percentiles(values), !subtracts);
+    // The rmse as defined has the scatter of the reference in it; the truth has not.
+    if (subtracts) widen(interval, value, percentiles(without_reference), false);
   }
   if (metric.name != "rank correlation") interval.lo = std::max(0., interval.lo);
   if (metric.name == "rank correlation") {

@@ -44,10 +44,12 @@ const Metric& find_metric(const std::string& name);
 
 /// Value and interval of a metric: 2,000 draws of all errors, once with errors that are independent
 /// from point to point and once with errors common to all points (what is true lies between, and
-/// nobody knows where), the wider ends taken. The draws' own scatter is subtracted where a metric
-/// would count it (rmse, e over u); elsewhere the interval is the union of the percentile and the
-/// reflected one (Davison and Hinkley, Bootstrap Methods, 1997, section 5.2). Always the same
-/// draws. Throws InputError for a reference of zero mean, or "e over u" without any uncertainty.
+/// nobody knows where), the wider ends taken. The draws' own scatter is subtracted from the rmse,
+/// which would count it; elsewhere the interval is the union of the percentile and the reflected
+/// one (Davison and Hinkley, Bootstrap Methods, 1997, section 5.2). Always the same draws.
+/// Of the largest error the interval is made of the points' own. "e over u" is its own test: the
+/// uncertainties are in it, and its interval is the value.
+/// Throws InputError for a reference of zero mean, or "e over u" without any uncertainty.
 MetricValue evaluate(const Metric& metric, const Comparison& comparison);
 
 /// 1-Wasserstein distance of two distributions given by densities on abscissae of their own, in the

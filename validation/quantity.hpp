@@ -15,22 +15,21 @@ namespace bedscope::validation {
 /// What of which run, and where.
 struct Place {
   std::string quantity;              ///< "lateral holdup"
-  std::map<std::string, double> at;  ///< height [m], of lateral profiles
+  std::map<std::string, double> at;  ///< height [m], of lateral profiles; probe, from 1
   std::string species = "all";
 };
 
+/// `of` gives the values of a run; a new quantity is a line of the table in quantity.cpp.
 struct NamedQuantity {
-  std::string_view name;
-  std::string_view unit;
-  bool is_profile = false;
-  bool needs_height = false;
+  std::string_view name, unit;
+  Sampled (*of)(const analysis::RunResult& run, const Place& place) = nullptr;
 };
 
 std::span<const NamedQuantity> quantities();
 
 /// The quantity of a run with its standard errors (half-widths of 95 % intervals / 1.96; 0 and
-/// `error_known` false where the run has none). Profiles along z or x [m], distributions along
-/// their own abscissa, single values at 0.
+/// `error_known` false where the run has none). Profiles along z or x [m], histories along time
+/// [s], distributions along their own abscissa, single values at 0.
 /// Throws InputError: no such quantity (names the nearest), no such species or height in the run
 /// (lists what there is), nothing seen.
 Sampled sample(const analysis::RunResult& run, const Place& place);

@@ -11,6 +11,8 @@
 #include <string_view>
 #include <vector>
 
+#include "physics/contact.hpp"
+#include "physics/drag.hpp"
 #include "physics/fixed_bed.hpp"
 #include "physics/minimum_fluidisation.hpp"
 #include "physics/packing.hpp"
@@ -69,69 +71,152 @@ double well_mixed_bed(const Parameters& with, const RunResult&, double) {
       .particle[0];
 }
 
-double fixed_bed(const Parameters& with, const RunResult&, double z) {
+physics::BedTemperatures fixed_bed_at(const Parameters& with, double z) {
   return physics::fixed_bed_temperatures(
-             {with("voidage"), with("superficial_velocity"), with("gas_heat_capacity"),
-              with("solids_heat_capacity"), with("heat_exchange"), with("initial_temperature"),
-              with("inlet_temperature"), with.or_else("source", 0)},
-             z - with.or_else("bottom", 0), with("time"))
-      .particle;
+      {with("voidage"), with("superficial_velocity"), with("gas_heat_capacity"),
+       with("solids_heat_capacity"), with("heat_exchange"), with("initial_temperature"),
+       with("inlet_temperature"), with.or_else("source", 0)},
+      z - with.or_else("bottom", 0), with("time"));
+}
+double fixed_bed(const Parameters& with, const RunResult&, double z) {
+  return fixed_bed_at(with, z).particle;
+}
+double fixed_bed_gas(const Parameters& with, const RunResult&, double z) {
+  return fixed_bed_at(with, z).gas;
+}
+
+double fixed_bed_pressure_drop(const Parameters& with, const RunResult&, double) {
+  return with("height") * physics::fixed_bed_pressure_gradient(sphere(with), gas(with),
+                                                               with("voidage"),
+                                                               with("superficial_velocity"));
+}
+
+/// No net flux of volume: phi v + eps u = 0, so that v is the superficial slip velocity, downwards.
+double batch_settling(const Parameters& with, const RunResult&, double) {
+  return -physics::carrying_velocity(sphere(with), gas(with), with("gravity"), with("voidage"),
+                                     physics::beetstra);
+}
+
+double rebound(const Parameters& with, const RunResult&, double) {
+  return with("impact_velocity") * physics::restitution_from_damping(
+                                       with("stiffness"), with("effective_mass"), with("damping"));
+}
+
+double relaxing_temperature(const Parameters& with, const RunResult&, double time) {
+  return physics::relaxing_temperature(with("start"), with("equilibrium"), with("thermal_time"),
+                                       time);
 }
 
 double random_close_packing(const Parameters&, const RunResult&, double) {
   return physics::random_close_packing;
 }
+double random_loose_packing(const Parameters&, const RunResult&, double) {
+  return physics::random_loose_packing;
+}
 
-struct Theory {
-  std::string_view name;
-  std::string_view unit;
+struct Theory : NamedTheory {
   double (*value)(const Parameters& with, const RunResult& run, double x);
-  std::vector<std::string_view> needed, optional;
-  std::string_view source;
 };
 
-std::span<const Theory> theories() {
+std::span<const Theory> all_theories() {
   static const std::vector<Theory> all{
-      {"bed weight",
-       "Pa",
-       bed_weight,
-       {"area", "particle_density", "gas_density", "gravity"},
-       {"mass"},
-       "momentum balance of a fluidised bed"},
-      {"fixed bed",
-       "K",
-       fixed_bed,
-       {"voidage", "superficial_velocity", "gas_heat_capacity", "solids_heat_capacity",
-        "heat_exchange", "initial_temperature", "inlet_temperature", "time"},
-       {"source", "bottom"},
-       "Anzelius (1926), Schumann (1929)"},
-      {"minimum fluidisation",
-       "m/s",
-       minimum_fluidisation,
-       {"diameter", "particle_density", "gas_density", "gas_viscosity", "gravity", "voidage"},
-       {},
-       "Ergun (1952)"},
-      {"random close packing", "-", random_close_packing, {}, {}, "Scott and Kilgour (1969)"},
-      {"terminal velocity",
-       "m/s",
-       terminal_velocity,
-       {"diameter", "particle_density", "gas_density", "gas_viscosity", "gravity"},
-       {},
-       "Schiller and Naumann (1935)"},
-      {"well-mixed bed",
-       "K",
-       well_mixed_bed,
-       {"inlet_temperature", "superficial_velocity", "gas_heat_capacity", "solids_height",
-        "diameter", "heat_transfer_coefficient", "source"},
-       {"fraction", "other_source"},
-       "Mu (2022), Eqs. 2.15-2.17"},
+      {{"batch settling",
+        "m/s",
+        {"diameter", "particle_density", "gas_density", "gas_viscosity", "gravity", "voidage"},
+        {},
+        "Beetstra, van der Hoef and Kuipers (2007)",
+        "velocity of solids that settle in a closed vessel, below 0; no clusters; voidage 0.4 to "
+        "0.9, Re up to 1000"},
+       batch_settling},
+      {{"bed weight",
+        "Pa",
+        {"area", "particle_density", "gas_density", "gravity"},
+        {"mass"},
+        "momentum balance of a fluidised bed",
+        "fluidised; neither wall friction nor acceleration; mass: the run's where left out"},
+       bed_weight},
+      {{"fixed bed",
+        "K",
+        {"voidage", "superficial_velocity", "gas_heat_capacity", "solids_heat_capacity",
+         "heat_exchange", "initial_temperature", "inlet_temperature", "time"},
+        {"source", "bottom"},
+        "Anzelius (1926), Schumann (1929)",
+        "particles of a fixed bed at one time; one dimension, no conduction along the bed, no "
+        "wall"},
+       fixed_bed},
+      {{"fixed bed gas",
+        "K",
+        {"voidage", "superficial_velocity", "gas_heat_capacity", "solids_heat_capacity",
+         "heat_exchange", "initial_temperature", "inlet_temperature", "time"},
+        {"source", "bottom"},
+        "Anzelius (1926), Schumann (1929)",
+        "the gas in it"},
+       fixed_bed_gas},
+      {{"fixed bed pressure drop",
+        "Pa",
+        {"diameter", "particle_density", "gas_density", "gas_viscosity", "voidage",
+         "superficial_velocity", "height"},
+        {},
+        "Ergun (1952)",
+        "at rest, below minimum fluidisation; voidage up to about 0.8"},
+       fixed_bed_pressure_drop},
+      {{"minimum fluidisation",
+        "m/s",
+        {"diameter", "particle_density", "gas_density", "gas_viscosity", "gravity", "voidage"},
+        {},
+        "Ergun (1952)",
+        "superficial; a steep function of the voidage at rest"},
+       minimum_fluidisation},
+      {{"random close packing",
+        "-",
+        {},
+        {},
+        "Scott and Kilgour (1969)",
+        "equal spheres, far from walls"},
+       random_close_packing},
+      {{"random loose packing",
+        "-",
+        {},
+        {},
+        "Onoda and Liniger (1990)",
+        "equal spheres, far from walls"},
+       random_loose_packing},
+      {{"rebound",
+        "m/s",
+        {"stiffness", "effective_mass", "damping", "impact_velocity"},
+        {},
+        "damped linear oscillator",
+        "head-on, linear spring and dashpot, contact ends at zero overlap"},
+       rebound},
+      {{"relaxing temperature",
+        "K",
+        {"start", "equilibrium", "thermal_time"},
+        {},
+        "heat balance of a stirred vessel",
+        "along time; no losses, gas perfectly mixed"},
+       relaxing_temperature},
+      {{"terminal velocity",
+        "m/s",
+        {"diameter", "particle_density", "gas_density", "gas_viscosity", "gravity"},
+        {},
+        "Schiller and Naumann (1935)",
+        "one sphere in gas at rest; Re up to 2e5"},
+       terminal_velocity},
+      {{"well-mixed bed",
+        "K",
+        {"inlet_temperature", "superficial_velocity", "gas_heat_capacity", "solids_height",
+         "diameter", "heat_transfer_coefficient", "source"},
+        {"fraction", "other_source"},
+        "Mu (2022), Eqs. 2.15-2.17",
+        "the particles that `source` heats; one stirred vessel at equilibrium, no losses"},
+       well_mixed_bed},
   };
   return all;
 }
 
 const Theory& find_theory(const std::string& name) {
   std::set<std::string> names;
-  for (const auto& theory : theories()) {
+  for (const auto& theory : all_theories()) {
     if (theory.name == name) return theory;
     names.emplace(theory.name);
   }
@@ -156,6 +241,16 @@ void require_parameters(const Theory& theory, const std::map<std::string, double
 
 }  // namespace
 
+std::vector<NamedTheory> theories() {
+  std::vector<NamedTheory> named;
+  for (const auto& theory : all_theories()) named.push_back(theory);
+  return named;
+}
+
+void require_theory(const std::string& name, const std::map<std::string, double>& with) {
+  require_parameters(find_theory(name), with);
+}
+
 Curve theory_curve(const std::string& name, const std::map<std::string, double>& with,
                    const RunResult& run, const Sampled& result) {
   const auto& theory = find_theory(name);
@@ -165,6 +260,7 @@ Curve theory_curve(const std::string& name, const std::map<std::string, double>&
                      result.y.unit);
   Curve curve{.name = "theory " + name, .x = result.x, .y = result.y};
   curve.about.citation = theory.source;
+  curve.about.caveats.emplace_back(theory.limits);
   curve.about.kind = "theory";
   const Parameters parameters(with);
   try {

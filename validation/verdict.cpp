@@ -3,12 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
+#include <limits>
 
-#include "analysis/tables.hpp"
 #include "readers/error.hpp"
+#include "validation/reference.hpp"
 #include "validation/shapes.hpp"
-#include "validation/theory.hpp"
 
 namespace bedscope::validation {
 namespace {
@@ -17,77 +16,6 @@ using analysis::RunResult;
 
 constexpr double coverage_factor = 1.96;
 
-const RunResult& run_of(std::span<const RunResult> runs, const std::string& label) {
-  for (const auto& run : runs)
-    if (run.label == label) return run;
-  std::string labels;
-  for (const auto& run : runs) labels += (labels.empty() ? "\"" : ", \"") + run.label + "\"";
-  throw InputError("no run \"{}\", there are {}", label, labels);
-}
-
-Curve constant(const Check& check, const Sampled& result) {
-  Curve curve{.name = fmt::format("{:.6g}", *check.number), .x = result.x, .y = result.y};
-  for (const double x : result.at) curve.points.push_back({x, *check.number, 0, check.number_u});
-  if (check.number_u == 0)
-    curve.assumptions.emplace_back(
-        "the number in the study is taken as exact (no uncertainty key)");
-  return curve;
-}
-
-/// An earlier result: the tables that lie beside its summary.json.
-Curve baseline(const std::string& path, const Check& check, const std::string& label,
-               const std::string& study) {
-  namespace fs = std::filesystem;
-  const fs::path file =
-      fs::path(path).is_absolute() ? fs::path(path) : fs::path(study).parent_path() / path;
-  const auto folder = fs::is_directory(file) ? file : file.parent_path();
-  const auto earlier = analysis::read_tables(folder, label);
-  return as_curve(sample(earlier, check.place), "baseline " + path);
-}
-
-/// The mean of all other runs at the abscissae of this one: how far a family of runs falls
-/// together.
-Curve mean_of_others(const Check& check, const RunResult& run, const Sampled& result,
-                     std::span<const RunResult> runs) {
-  Curve mean{.name = "mean of the other runs", .x = result.x, .y = result.y};
-  std::vector<Comparison> others;
-  const auto here = as_curve(result, run.label);
-  for (const auto& other : runs)
-    if (other.label != run.label) others.push_back(compare(sample(other, check.place), here));
-  if (others.empty()) throw InputError("run:others: expected a second run in the study");
-  for (const double x : result.at) {
-    double sum = 0, u = 0, count = 0;
-    for (const auto& other : others)
-      for (const auto& point : other.points)
-        if (point.x == x) {
-          sum += point.result;
-          u += point.u_result * point.u_result + point.u_interpolation * point.u_interpolation;
-          count += 1;
-        }
-    if (count == static_cast<double>(others.size()))
-      mean.points.push_back({x, sum / count, 0, std::sqrt(u) / count});
-  }
-  if (mean.points.empty()) throw InputError("run:others: the runs have no abscissa in common");
-  return mean;
-}
-
-Curve reference_of(const Check& check, const RunResult& run, const Sampled& result,
-                   std::span<const RunResult> runs, const Curves& curves,
-                   const std::string& study) {
-  if (check.number) return constant(check, result);
-  const auto after = [&](std::string_view prefix) { return check.against.substr(prefix.size()); };
-  if (check.against.starts_with("theory:"))
-    return theory_curve(after("theory:"), check.with, run, result);
-  if (check.against == "run:others") return mean_of_others(check, run, result, runs);
-  if (check.against.starts_with("run:")) {
-    const auto label = after("run:");
-    return as_curve(sample(run_of(runs, label), check.place), "run " + label);
-  }
-  if (check.against.starts_with("baseline:"))
-    return baseline(after("baseline:"), check, run.label, study);
-  return curves.curve(check.against, check.place.at);
-}
-
 /// How a value stands to its limit, in words.
 std::string standing(const Verdict& verdict) {
   return fmt::format("{} {:.3g} [{:.3g}, {:.3g}] against {} {:.3g}", verdict.check.metric,
@@ -95,23 +23,27 @@ std::string standing(const Verdict& verdict) {
                      verdict.small_is_good ? "at most" : "at least", verdict.limit);
 }
 
+/// An average over `longer` times the time.
+std::string in_time(double duration, double longer) {
+  if (duration > 0)
+    return fmt::format("{:.2g} s more of simulation would settle it ({:.3g} s were averaged)",
+                       duration * (longer - 1), duration);
+  return fmt::format("an average over {:.2g} times the time would settle it", longer);
+}
+
 /// What would settle an undecided check.
 std::string what_would_settle(const Verdict& verdict) {
   const auto& metric = verdict.metric;
   const double distance = std::abs(verdict.limit - metric.value);
-  const double half_width =
-      metric.value <= verdict.limit ? metric.hi - metric.value : metric.value - metric.lo;
+  // The wider side: the other one may end at 0, which no metric goes below.
+  const double half_width = std::max(metric.hi - metric.value, metric.value - metric.lo);
   const double of_reference = std::min(metric.reference_half_width, half_width);
   if (of_reference >= distance)
     return "the reference cannot settle it: its own uncertainty reaches over the limit";
   const double of_result = std::sqrt(half_width * half_width - of_reference * of_reference);
   const double longer = of_result * of_result / (distance * distance - of_reference * of_reference);
-  const double duration = verdict.result.duration;
   if (longer > 1e4) return "the value is too near to the limit for any simulation to settle it";
-  if (duration > 0)
-    return fmt::format("{:.2g} s more of simulation would settle it ({:.3g} s were averaged)",
-                       duration * (longer - 1), duration);
-  return fmt::format("an average over {:.2g} times the time would settle it", longer);
+  return in_time(verdict.result.duration, longer);
 }
 
 std::string reason_of(const Verdict& verdict) {
@@ -123,18 +55,29 @@ std::string reason_of(const Verdict& verdict) {
   return text;
 }
 
-/// V&V 20 says nothing where u_val is large: any error would hide in it.
+/// V&V 20 says nothing where u_val is large: any error would hide in it. Says what would help.
 bool too_uncertain(const Verdict& verdict, std::string& why) {
   if (verdict.check.metric != "e over u") return false;
-  double u = 0, mean = 0;
-  for (const auto& point : verdict.comparison.points) {
-    u = std::max(u, coverage_factor * point.u_validation());
-    mean += point.reference / static_cast<double>(verdict.comparison.points.size());
+  const auto& points = verdict.comparison.points;
+  double mean = 0;
+  for (const auto& point : points) mean += point.reference / static_cast<double>(points.size());
+  const double wanted = verdict.check.accuracy * std::abs(mean) / coverage_factor;
+  double largest = 0, longer = 1;
+  for (const auto& point : points) {
+    largest = std::max(largest, point.u_validation());
+    const double fixed = std::hypot(point.u_reference, point.u_interpolation);
+    const double left = wanted * wanted - fixed * fixed;
+    longer = std::max(longer, left > 0 ? point.u_result * point.u_result / left
+                                       : std::numeric_limits<double>::infinity());
   }
-  if (u <= verdict.check.accuracy * std::abs(mean)) return false;
-  why =
-      fmt::format("; 1.96 u_val reaches {:.2g} of the mean, above the accuracy of {:.2g} asked for",
-                  u / std::abs(mean), verdict.check.accuracy);
+  if (largest <= wanted) return false;
+  why = fmt::format(
+      "; 1.96 u_val reaches {:.2g} of the mean, above the accuracy of {:.2g} asked for: ",
+      coverage_factor * largest / std::abs(mean), verdict.check.accuracy);
+  if (!std::isfinite(longer))
+    why += "no simulation can settle it, the reference's own uncertainty is larger";
+  else
+    why += in_time(verdict.result.duration, longer);
   return true;
 }
 
@@ -174,6 +117,7 @@ Verdict evaluate_on(const Check& check, const RunResult& run, std::span<const Ru
                     const Curves& curves, const std::string& study) {
   Verdict verdict{.check = check, .run = run.label, .limit = check.limit.value_or(0)};
   verdict.result = sample(run, check.place);
+  verdict.assumptions = verdict.result.notes;
   if (!verdict.result.error_known)
     verdict.assumptions.push_back(fmt::format("run \"{}\": {} has no intervals; taken as exact",
                                               run.label, check.place.quantity));

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "analysis/bed_tables.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 #include "analysis/results_file.hpp"
 #include "analysis/tables.hpp"
+#include "readers/error.hpp"
 #include "tests/analysis/example_result.hpp"
 
 namespace bedscope::analysis {
@@ -53,6 +57,51 @@ TEST(BedTables, are_as_documented) {
             "degrees_of_freedom\n"
             "\"a, \"\"b\"\"\",p,Pa,40,100,1,5,0.5,2.5,0.25,0.25,3,5.5\n"
             "\"a, \"\"b\"\"\",constant,-,40,0.3,0,0,0,nan,nan,nan,0,nan\n");
+}
+
+TEST(BedTables, read_back_as_they_were) {
+  const TestFolder folder;
+  const auto written = bed_run();
+  write_tables(std::vector{written}, folder);
+  const auto run = read_tables(folder, written.label);
+  ASSERT_EQ(run.bed.samples.size(), 2u);
+  EXPECT_EQ(run.bed.samples[0].surface, 0.21);
+  ASSERT_TRUE(run.bubbles);
+  ASSERT_EQ(run.bubbles->bubbles.size(), 1u);
+  EXPECT_EQ(run.bubbles->bubbles[0].area, 1e-4);
+  EXPECT_EQ(run.bubbles->bubbles[0].track_velocity_z, 0.75);
+  ASSERT_EQ(run.bubbles->bands.size(), 1u);
+  EXPECT_EQ(run.bubbles->bands[0].diameter.ci95, 0.001);
+  EXPECT_EQ(run.bubbles->bands[0].frequency.value, 3);
+  ASSERT_EQ(run.fluctuations.size(), 2u);
+  EXPECT_EQ(run.fluctuations[0].signal, "p");
+  EXPECT_EQ(run.fluctuations[0].deviation.value, 5);
+  EXPECT_EQ(run.fluctuations[0].dominant.value, 2.5);
+}
+
+TEST(TableWindow, OfAStudyCutsTheSeriesOfTables) {
+  const TestFolder folder;
+  put(folder / "bed_height.csv", "time [s],height_surface [m]\n0,9\n1,0.2\n2,0.4\n3,9\n");
+  auto run = read_tables(folder, "any");
+  choose_window(run, std::array{1.0, 2.0});
+  EXPECT_EQ(run.window.snapshots, 2u);
+  EXPECT_EQ(run.window.first, 1u);
+  EXPECT_NEAR(run.bed.surface.value, 0.3, 1e-15);
+  EXPECT_THROW(choose_window(run, std::array{4.0, 5.0}), InputError);
+}
+
+TEST(TableWindow, IsChosenByTheInventoryWhereTheStudySaysAuto) {
+  const TestFolder folder;
+  std::string rows = "time [s],particles,holdup [-]\n";
+  for (int i = 0; i < 400; ++i)  // empty for 40, then fluctuating a little
+    rows += fmt::format("{},1,{}\n", i, i < 40 ? 0 : 0.1 + 0.001 * std::sin(i * i));
+  put(folder / "inventory.csv", rows);
+  auto run = read_tables(folder, "any");
+  choose_window(run, std::nullopt);
+  EXPECT_GE(run.window.from, 40);
+  EXPECT_LE(run.window.from, 80);  // the minimum is flat: the latest start within 10 %
+  EXPECT_EQ(run.window.to, 399);
+  EXPECT_TRUE(run.window.automatic);
 }
 
 TEST(BedTables, without_results_are_removed) {

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "analysis/statistics.hpp"
+#include "tests/analysis/random_series.hpp"
 
 namespace bedscope::analysis {
 namespace {
@@ -23,44 +24,9 @@ constexpr int repetitions = 4000;
 constexpr std::size_t samples = 400;
 using Series = std::vector<double>;
 
-/// Random numbers that are the same with every standard library.
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
-  double uniform() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }  // [0, 1)
-  double normal() {  // Marsaglia's polar method
-    if (has_spare_) {
-      has_spare_ = false;
-      return spare_;
-    }
-    double a = 0, b = 0, s = 0;
-    do {
-      a = 2 * uniform() - 1;
-      b = 2 * uniform() - 1;
-      s = a * a + b * b;
-    } while (s >= 1 || s == 0);
-    const double scale = std::sqrt(-2 * std::log(s) / s);
-    spare_ = b * scale;
-    has_spare_ = true;
-    return a * scale;
-  }
+using tests::Random;
 
- private:
-  std::mt19937_64 engine_;
-  double spare_ = 0;
-  bool has_spare_ = false;
-};
-
-/// AR(1) of variance 1 from its stationary distribution.
-Series ar1(Random& random, double rho, std::size_t n = samples) {
-  Series series(n);
-  double state = random.normal();
-  for (double& x : series) {
-    x = state;
-    state = rho * state + std::sqrt(1 - rho * rho) * random.normal();
-  }
-  return series;
-}
+Series ar1(Random& random, double rho) { return tests::ar1(random, rho, samples); }
 
 /// AR(2) x = a x' + b x'', after 500 steps of running in.
 Series ar2(Random& random, double a, double b, std::size_t n = samples) {

@@ -4,6 +4,7 @@
 
 #include <hdf5.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "analysis/results_file.hpp"
 #include "analysis/summary.hpp"
 #include "analysis/tables.hpp"
+#include "readers/error.hpp"
 #include "tests/analysis/example_result.hpp"
 
 namespace bedscope::analysis {
@@ -92,10 +94,41 @@ TEST(GasTables, AreRemovedWhereNoRunHasGas) {
     EXPECT_FALSE(std::filesystem::exists(folder / name)) << name;
 }
 
-TEST(GasTables, AreNoHindranceToReadingTheOthersBack) {
+TEST(GasTables, ReadBackAsTheyWere) {
   const TestFolder folder;
-  write_tables(std::vector{run_with_gas()}, folder);
-  EXPECT_EQ(read_tables(folder, "K = 1").species.front().axial.coordinate.size(), 4u);
+  const auto written = run_with_gas();
+  write_tables(std::vector{written}, folder);
+  const auto run = read_tables(folder, "K = 1");
+  EXPECT_EQ(run.species.front().axial.coordinate.size(), 4u);
+  EXPECT_TRUE(run.gas.present && run.gas.has_velocity && run.gas.has_pressure);
+  EXPECT_FALSE(run.gas.has_temperature);
+  const auto same = [](const GasProfile& a, const GasProfile& b) {
+    ASSERT_EQ(a.coordinate, b.coordinate);
+    for (std::size_t i = 0; i < a.coordinate.size(); ++i) {
+      EXPECT_EQ(a.voidage[i].value, b.voidage[i].value);
+      EXPECT_EQ(a.velocity_z[i].ci95, b.velocity_z[i].ci95);
+      EXPECT_TRUE(std::isnan(a.temperature[i].value));
+      EXPECT_EQ(a.pressure[i].value, b.pressure[i].value);
+      EXPECT_EQ(a.slip_z[i].ci95, b.slip_z[i].ci95);
+    }
+  };
+  same(run.gas.axial, written.gas.axial);
+  ASSERT_EQ(run.gas.lateral.size(), written.gas.lateral.size());
+  for (std::size_t h = 0; h < run.gas.lateral.size(); ++h)
+    same(run.gas.lateral[h], written.gas.lateral[h]);
+  ASSERT_EQ(run.gas.pressure.size(), 2u);
+  EXPECT_EQ(run.gas.pressure[0].drop, 640);
+  EXPECT_EQ(run.gas.pressure[0].weight_by_area, 469);
+}
+
+TEST(GasTables, OfAnotherProgramMayHoldTheGasAlone) {
+  const TestFolder folder;
+  put(folder / "gas_axial.csv", "z [m],pressure [Pa]\n0.3,10\n0.1,30\n0.2,20\n");
+  const auto run = read_tables(folder, "any");
+  EXPECT_EQ(run.gas.axial.coordinate, (std::vector{0.1, 0.2, 0.3}));
+  EXPECT_EQ(run.gas.axial.pressure[0].value, 30);
+  put(folder / "gas_axial.csv", "z [m],pressure [Pa]\n0.3,10\n0.3,30\n");
+  EXPECT_THROW(read_tables(folder, "any"), FormatError);
 }
 
 std::vector<double> dataset(hid_t file, const char* name) {

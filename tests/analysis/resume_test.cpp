@@ -452,6 +452,18 @@ TEST_F(Resume, AStateThatCannotBeWrittenIsSaidAndTheResultStands) {
   EXPECT_NE(notes.find("dump0.liggghts: Not a directory"), std::string::npos) << notes;
 }
 
+TEST_F(Resume, AStateThatIsReadAndNotKeptAgainServesToo) {
+  add(0, 500, 100);
+  resumed();
+  auto options = keeping();
+  options.keep.state.clear();
+  for (const int more :
+       {0, 600, 700}) {  // nothing new; one; two, of which the first moves a weight
+    if (more > 0) add(more);
+    EXPECT_TRUE(written(analyse_run(settings, options), folder.path("resumed")) == fresh()) << more;
+  }
+}
+
 TEST_F(Resume, PicturesOrNone) {
   add(0, 300, 100);
   resumed();

@@ -389,6 +389,34 @@ class BadInput(Command):
     def test_path_that_is_not_there(self):
         self.fails(self.at("nothing"), "nothing")
 
+    def test_pipes_devices_and_folders(self):
+        """None is waited for, or read without end."""
+        self.post()
+        os.mkfifo(self.at("pipe.toml"))
+        os.mkdir(self.at("folder.toml"))
+        os.symlink("/dev/zero", self.at("zero.toml"))
+        os.symlink("loop.toml", self.at("loop.toml"))
+        for name in ("pipe", "folder", "zero", "loop"):
+            path = self.at(name + ".toml")
+            self.fails(path, path)
+            for command in ("validate", "digitise"):
+                with self.subTest(command=command, path=path):
+                    done = self.run_it(command, path, "-o", self.out)
+                    self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
+                    self.assertIn(path, done.stderr)
+                    self.assertFalse(os.path.exists(self.out))
+
+    def test_dumps_that_are_pipes_or_devices(self):
+        self.post()
+        os.mkfifo(self.at("post", "dump50.liggghts_run"))
+        os.symlink("/dev/zero", self.at("post", "dump60.liggghts_run"))
+        self.fails(self.study(), "dump50.liggghts_run: not a regular file")  # matches dump*
+        self.analyse(self.study(run={"particles": self.at("post")}))  # of a folder they are none
+        for name in ("dump50", "dump60"):
+            path = self.at("post", name + ".liggghts_run")
+            done = self.run_it("info", path)
+            self.assertEqual((done.returncode, done.stderr), (2, f"bedscope: {path}: not a regular file\n"))
+
     def test_study_without_a_run(self):
         write(self.at("a.toml"), "title = 'x'\n")
         self.fails(self.at("a.toml"), "a.toml", "[[run]]")
@@ -589,7 +617,8 @@ class BadInput(Command):
 
     def test_usage(self):
         for arguments in ([], ["analyze"], ["analyse"], ["analyse", "x", "--thread", "2"],
-                          ["analyse", "x", "--threads", "0"], ["info"], ["info", "x", "y"]):
+                          ["analyse", "x", "--threads", "0"], ["analyse", "x", "--threads", "a\n\x1b[31m"], ["info"],
+                          ["info", "x", "y"]):
             with self.subTest(arguments=arguments):
                 done = self.run_it(*arguments)
                 self.assertEqual((done.returncode, done.stderr.count("\n"), done.stdout), (2, 1, ""),
@@ -623,6 +652,15 @@ class Info(Command):
         done = self.run_it("info", self.at("post"), "--json")
         self.assertEqual(done.returncode, 0)
         self.assertIsNone(json.loads(done.stdout)["radius"])
+
+    def test_binary_without_names(self):
+        dump = os.path.join(os.path.dirname(__file__), "../data/liggghts_parallel/gather1000.bin")
+        info = json.loads(self.run_it("info", dump, "--json").stdout)
+        self.assertEqual((info["snapshots"], info["steps"], info["columns"][0]), (1, [1000], "column 1"))
+        self.assertIsNone(info["inventory"])
+        self.assertIn("columns = [...]", info["analyse"]["stops"])
+        study = self.run_it("info", dump, "--study")
+        self.assertEqual((study.returncode, "columns = [...]" in study.stderr), (2, True))
 
 
 class Follow(Command):

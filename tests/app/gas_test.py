@@ -4,6 +4,7 @@
 Usage: gas_test.py BEDSCOPE [unittest arguments]. Exit code 77: numpy or scipy is missing.
 """
 
+import json
 import math
 import os
 import shutil
@@ -240,6 +241,124 @@ class GasBadInput(GasCommand):
         for row in self.rows("gas_axial"):
             self.assertAlmostEqual(float(row["voidage [-]"]), 0.5, places=12)
             self.assertAlmostEqual(float(row["temperature [K]"]), 300, places=9)
+
+
+class GasVtk(GasCommand):
+    """Tables out of foamToVTK's files are those of the case (tests/data/vtk_gas/README.md)."""
+
+    DATA = os.path.join(SAMPLES, "tests", "data")
+    TABLES = ("gas_axial", "gas_lateral", "voidage_check", "pressure_drop")
+
+    def vtk_study(self, gas):
+        low, high = [-0.0075, -0.075, 0.0], [0.0075, 0.075, 0.5]  # above the mesh, which ends at 0.45 m
+        return self.study({"gas": gas, "step_zero": 0}, domain={"min": low, "max": high}, lateral="y",
+                          cell=[0.01, 0.0175], gas_density=1.2)
+
+    def same(self, a, b, tolerance):
+        self.assertEqual(len(a), len(b))
+        for left, right in zip(a, b):
+            self.assertEqual(list(left), list(right))
+            for key in left:
+                x, y = left[key], right[key]
+                if key in ("run", "type") or "nan" in (x, y):
+                    self.assertEqual(x, y, (key, left, right))
+                elif not key.endswith("ci95 [-]"):
+                    self.assertAlmostEqual(float(x), float(y), delta=tolerance * max(1e-3, abs(float(x))), msg=key)
+
+    def test_tables_are_those_of_the_case(self):
+        self.post((0, 300, 400), domain=([-0.0075, -0.075, 0.0], [0.0075, 0.075, 0.3]))
+        self.analyse(self.vtk_study(os.path.join(self.DATA, "openfoam", "ascii")))
+        whole = {name: self.rows(name) for name in self.TABLES}
+        heights = [row["z [m]"] for row in whole["gas_axial"]]
+        # Float in binary, six digits in text; of moved walls no sliver reaches another cell.
+        for form, tolerance in (("xml/boxes_0.vtm", 2e-6), ("legacy/boxes_0.vtk", 2e-6),
+                                ("ascii", 2e-5), ("legacy_ascii", 2e-5)):
+            with self.subTest(form=form):
+                self.analyse(self.vtk_study(os.path.join(self.DATA, "vtk_gas", form)))
+                self.assertEqual([row["z [m]"] for row in self.rows("gas_axial")], heights)
+                for name in self.TABLES:
+                    self.same(whole[name], self.rows(name), tolerance)
+                self.assertIn("p has no dimensions: taken as p/rho", self.problems())
+
+    def test_two_times_are_averaged(self):
+        self.post((0, 300, 400))
+        self.analyse(self.vtk_study(os.path.join(self.DATA, "vtk_gas", "xml")))
+        self.assertEqual(self.summary()[0]["gas_times"], 2)
+        self.assertEqual(self.summary()[0]["gas_matched"], 2)
+
+    def test_info_names_form_times_cells_and_fields(self):
+        for form in ("xml", "legacy", "xml/boxes.vtm.series", "legacy/boxes.vtk.series"):
+            found = self.info(os.path.join(self.DATA, "vtk_gas", form))
+            self.assertEqual((found["form"], found["times"], found["cells"]), ("vtk-gas", [0.003, 0.004], 200))
+            self.assertEqual(found["mesh"]["grid"], [1, 10, 20])
+            self.assertAlmostEqual(found["mesh"]["volume"], 0.015 * 0.15 * 0.45, delta=1e-9)
+            self.assertIn("alpha.air", found["columns"])
+            self.assertEqual(found["problems"], [])
+
+    def test_bad_input(self):
+        self.post((0, 300, 400))
+        shutil.copytree(os.path.join(self.DATA, "vtk_gas", "xml"), self.at("VTK"))
+        study = self.vtk_study("VTK")
+        os.remove(self.at("VTK", "boxes_1.vtm"))
+        self.fails(study, "boxes.vtm.series", "boxes_1.vtm", "not found")
+        os.remove(self.at("VTK", "boxes.vtm.series"))
+        self.analyse(study)  # the one .vtm that is left
+        whole = read(self.at("VTK", "boxes_0", "internal.vtu"))
+        write(self.at("VTK", "boxes_0", "internal.vtu"), whole[:9000])
+        self.fails(study, "internal.vtu", "line")
+        write(self.at("VTK", "boxes_0", "internal.vtu"), whole.replace(b"NumberOfCells='200'", b"NumberOfCells='201'"))
+        self.fails(study, "internal.vtu", "array types")
+        write(self.at("VTK", "boxes_0", "internal.vtu"), whole.replace(b"alpha.air", b"alpha_air"))
+        self.fails(study, "no voidage", "alpha_air")
+        shutil.rmtree(self.at("VTK", "boxes_0"))
+        self.fails(study, "internal.vtu", "not found")
+        os.remove(self.at("VTK", "boxes_0.vtm"))
+        self.fails(study, "VTK")
+
+    def info(self, path):
+        done = self.run_it("info", path, "--json")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        return json.loads(done.stdout)
+
+
+class Parcels(GasCommand):
+    """One parcel stands for nParticle particles: masses, holdups and fluxes are those of the particles."""
+
+    def test_closed_form(self):
+        case = self.case(n=(2, 1, 3))
+        case.field("0.5", "p", np.zeros(6), "0 2 -2 0 0 0 0")
+        rng = np.random.default_rng(5)
+        count = 60
+        d, n = rng.choice([2e-4, 3e-4], count), rng.choice([1, 8, 20.5], count)
+        layer = np.arange(count) % 3  # each well inside one of the three layers of 0.1 m
+        at = np.stack([rng.uniform(0.01, 0.06, count), np.full(count, 0.003), 0.1 * layer + rng.uniform(0.02, 0.08, count)], axis=1)
+        u = rng.normal(0, 1, (count, 3))
+        cloud = "0.5/lagrangian/kinematicCloud/"
+
+        def rows(values):
+            return "\n%d\n(\n%s\n)\n" % (count, "\n".join(values))
+
+        case.write(cloud + "positions", "Cloud<basicKinematicParcel>",
+                   rows("(%.12g %.12g %.12g) 0" % tuple(x) for x in at))
+        for name, values in (("d", d), ("nParticle", n), ("rho", np.full(count, 2500.0))):
+            case.write(cloud + name, "scalarField", rows("%.12g" % v for v in values))
+        case.write(cloud + "U", "vectorField", rows("(%.12g %.12g %.12g)" % tuple(v) for v in u))
+        self.analyse(write_study(self.folder, {"domain": {"min": DOMAIN[0], "max": DOMAIN[1]}, "cells": [1, 3]},
+                                 [{"label": "parcels", "particles": "CFD"}], profiles={"heights": [0.15], "band": 0.1}))
+        volume = n * math.pi / 6 * d**3
+        bed = self.rows("inventory")[0]
+        self.assertEqual(bed["particles"], str(count))  # of parcels, as docs/study.md says
+        self.assertAlmostEqual(float(bed["solids_mass [kg]"]) / (2500 * volume.sum()), 1, places=10)
+        self.assertAlmostEqual(float(bed["holdup [-]"]) / (volume.sum() / (0.07 * 0.006 * 0.3)), 1, places=10)
+        self.assertAlmostEqual(float(bed["mean_height [m]"]), (volume * at[:, 2]).sum() / volume.sum(), places=10)
+        for k, row in enumerate(r for r in self.rows("axial_profile") if r["type"] == "all"):
+            of = volume[layer == k]
+            holdup = of.sum() / (0.07 * 0.006 * 0.1)
+            flux = 2500 * (of * u[layer == k, 2]).sum() / (0.07 * 0.006 * 0.1)
+            self.assertAlmostEqual(float(row["holdup [-]"]) / holdup, 1, places=10)
+            self.assertAlmostEqual(float(row["mass_flux_z [kg/m2/s]"]) / flux, 1, places=9)
+            self.assertAlmostEqual(float(row["velocity_z [m/s]"]) * 2500 * holdup / flux, 1, places=9)
+        self.assertIn("one parcel stands for 1 to 20.5 particles (nParticle)", self.problems())
 
 
 class GasFollow(GasCommand):

@@ -7,6 +7,8 @@
 import csv
 import json
 import os
+import pathlib
+import resource
 import subprocess
 import sys
 import tempfile
@@ -26,7 +28,7 @@ CURVES = PROJECT + "/data/curves/varas_2017/"
 
 
 def bedscope(*words):
-    return subprocess.run([BEDSCOPE, *words], capture_output=True, text=True)
+    return subprocess.run([BEDSCOPE, *words], capture_output=True, text=True, timeout=120)
 
 
 def rows_of(path, **chosen):
@@ -130,6 +132,20 @@ class Validate(unittest.TestCase):
         with open(self.folder + "/out/report.html") as file:
             self.assertIn("<th>Before</th>", file.read())
 
+    def test_several_checks_of_one_comparison_share_its_panel(self):
+        check = 'quantity = "axial holdup"\nagainst = 0.075\nmetric = "{}"\nlimit = 1\nuncertainty = 0.001'
+        self.validate(self.study([check.format(m) for m in ("relative rmse", "max error", "relative bias")]))
+        self.assertEqual(os.listdir(self.folder + "/out/checks").count("check_01.svg"), 1)
+        self.assertNotIn("check_02.svg", os.listdir(self.folder + "/out/checks"))
+        with open(self.folder + "/out/report.html") as file:
+            self.assertIn('id="check3"', file.read())
+
+    def test_single_values_have_a_panel_too(self):
+        check = 'quantity = "bed height"\nagainst = 0.2\nmetric = "relative bias"\nlimit = 1\nuncertainty = 0.01'
+        self.tables(bed_height="time [s],height_surface [m]\n0,0.2\n1,0.3\n2,0.2\n")
+        self.validate(self.study([check]))
+        self.assertIn("check_01.svg", os.listdir(self.folder + "/out/checks"))
+
     def test_bad_checks_are_one_line_and_leave_nothing(self):
         good = dict(quantity='"axial holdup"', against='"varas_2017/axial_holdup?U=5.55"',
                     metric='"relative rmse"', limit="1")
@@ -146,7 +162,25 @@ class Validate(unittest.TestCase):
                              ({"metric": '"area"'}, "no distribution"),
                              ({"metric": '"decreasing"'}, "needs none"),
                              ({"limits": "2"}, "unknown key"),
-                             ({"against": '"wachem_2001/voidage"'}, "expected the units")):
+                             ({"against": '"wachem_2001/voidage"'}, "expected the units"),
+                             ({"against": '"varas_2017/axial_holdup?U=5.5"'}, "no point has U = 5.5; there are"),
+                             ({"against": '"varas_2017/axial_holdup?V=5.5"'}, "expected a choice among U"),
+                             ({"against": '"varas_2017/axial_holdup?U"'}, "expected a selection such as"),
+                             ({"against": '"mu_2022/text_statements"'}, "not a curve"),
+                             ({"against": '"nowhere.csv"'}, "no such file"),
+                             ({"against": '"baseline:nowhere.json"'}, "no such file"),
+                             ({"against": '"theory:fixed bed"'}, "with.voidage is missing"),
+                             ({"against": '"theory:random close packing"', "with": "{ area = 1 }"}, "unknown key"),
+                             ({"quantity": '"mean holdup"'}, "has no mean holdup"),
+                             ({"quantity": '"pressure drop"', "against": "3"}, "has no pressure drop"),
+                             ({"quantity": '"axial temperature"', "against": "3"}, "has no axial temperature"),
+                             ({"quantity": '"bubble diameter"', "against": "3"}, "has no bubble diameter"),
+                             ({"quantity": '"probe pressure deviation"', "against": "3"}, "has no probes"),
+                             ({"run": '"b"'}, 'no run "b"'),
+                             ({"species": '"7"'}, 'no species "7"'),
+                             ({"limit": '"a"'}, "limit"),
+                             ({"accuracy": "-1"}, "accuracy"),
+                             ({"uncertainty": "-1"}, "uncertainty")):
             keys = {k: v for k, v in (good | change).items() if v is not None}
             done = self.validate(self.study(["\n".join(f"{k} = {v}" for k, v in keys.items())]))
             self.assertEqual(done.returncode, 2, change)
@@ -155,6 +189,167 @@ class Validate(unittest.TestCase):
             self.assertIn("study.toml", done.stderr)
             self.assertFalse(os.path.exists(self.folder + "/out/report.html"))
 
+    def test_pipes_devices_and_folders_are_no_curves(self):
+        study = self.study(['quantity = "axial holdup"\nagainst = "mine"\nmetric = "max error"\nlimit = 1'],
+                           head='curves = ["c"]\n')
+        os.makedirs(self.folder + "/c")
+        path = self.folder + "/c/mine"
+        for make in (os.mkfifo, os.mkdir, lambda name: os.symlink("/dev/zero", name)):
+            for ending in (".csv", ".toml"):
+                with open(path + (".toml" if ending == ".csv" else ".csv"), "w") as file:
+                    file.write('redistribute = "no"\n' if ending == ".csv" else "z [m],holdup [-]\n0,0.1\n1,0.1\n")
+                make(path + ending)
+                done = self.validate(study)
+                self.assertLessEqual(done.stderr.count("\n"), 1, done.stderr)
+                self.assertEqual(done.returncode, 2, done.stderr)
+                self.assertFalse(os.path.exists(self.folder + "/out"))
+                (os.rmdir if make is os.mkdir else os.remove)(path + ending)
+                os.remove(path + (".toml" if ending == ".csv" else ".csv"))
+        os.mkfifo(self.folder + "/earlier.json")
+        done = self.validate(self.study(['quantity = "mean holdup"\nagainst = 0.1\nmetric = "max error"\nlimit = 1']),
+                             "--earlier", self.folder + "/earlier.json")
+        self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
+
+    def test_a_write_that_fails_leaves_the_folder_as_it_was(self):
+        check = 'quantity = "axial holdup"\nagainst = 0.08\nmetric = "max error"\nlimit = 1'
+        whole = self.validate(self.study([check]))
+        self.assertEqual(whole.returncode, 0, whole.stderr)
+        out = self.folder + "/out"
+
+        def tree():
+            paths = [os.path.join(folder, name) for folder, _, names in os.walk(out) for name in names]
+            return {path: pathlib.Path(path).read_bytes() for path in paths}
+
+        before = tree()
+        study = self.study([check, check.replace("0.08", "0.07")])
+        sizes = sorted({len(content) for content in before.values()})
+        for limit in [0, *(size - 1 for size in sizes[::3]), sizes[-1] - 1]:
+            done = subprocess.run([BEDSCOPE, "validate", study, "-o", out], capture_output=True, text=True,
+                                  preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)))
+            self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
+            self.assertEqual(tree(), before, limit)
+    def test_bad_curves_are_one_line_and_leave_nothing(self):
+        os.makedirs(self.folder + "/mine")
+        check = 'quantity = "axial holdup"\nagainst = "bad"\nmetric = "relative rmse"\nlimit = 1'
+        study = self.study([check], head='curves = ["mine"]\n')
+        for table, sidecar, text in (
+                ("z,holdup\n0.1,0.2\n", "", 'column "z": expected its unit in brackets'),
+                ("z [m],holdup\n0.1,0.2\n", "", 'column "holdup": expected its unit in brackets'),
+                ("z [m]\n0.1\n", "", "expected an abscissa and an ordinate"),
+                ("z [m],holdup [-]\n", "", "no rows"),
+                ("", "", "bad.csv"),
+                ("z [m],holdup [-]\n0.1,a\n", "", "line 2"),
+                ("z [m],holdup [-]\n0.1,nan\n", "", "line 2"),
+                ("z [m],holdup [-]\n0.1,0.2,3\n", "", "line 2"),
+                ("z [m],holdup [-]\n7,0.2\n8,0.3\n", "", "outside the result: z [m] from 7 to 8"),
+                ("z [mm],holdup [-]\n0.1,0.2\n", "", "expected the units of the result"),
+                ("z [m],holdup [-]\n0.1,0.2\n", 'redistribute = "maybe"', 'expected "yes" or "no"'),
+                ("z [m],holdup [-]\n0.1,0.2\n", 'redistribte = "no"', "unknown key"),
+                ("z [m],holdup [-]\n0.1,0.2\n", "ordinate_uncertainty = -1", "at least 0"),
+                ("z [m],holdup [-]\n0.1,0.2\n", 'ordinate_uncertainty = "x %"', "expected a share"),
+                ("z [m],holdup [-]\n0.1,0.2\n", 'ordinate = "velocity"', 'expected a column "velocity"'),
+                ("z [m],holdup [-]\n0.1,0.2\n", "title = ", "bad.toml")):
+            with open(self.folder + "/mine/bad.csv", "w") as file:
+                file.write(table)
+            with open(self.folder + "/mine/bad.toml", "w") as file:
+                file.write(sidecar)
+            done = self.validate(study)
+            self.assertEqual(done.returncode, 2, table + sidecar)
+            self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+            self.assertIn(text, done.stderr)
+            self.assertFalse(os.path.exists(self.folder + "/out"))
+
+    def test_a_density_needs_ascending_abscissae(self):
+        os.makedirs(self.folder + "/mine")
+        os.makedirs(self.folder + "/a/tables")
+        with open(self.folder + "/a/tables/temperature_pdf.csv", "w") as file:
+            file.write("bin_centre [-],probability_density [-]\n0.25,1.5\n0.75,0.5\n")
+        with open(self.folder + "/mine/bad.csv", "w") as file:
+            file.write("T [-],density [-]\n0.2,1\n0.2,2\n0.4,1\n")
+        check = 'quantity = "temperature pdf"\nagainst = "bad"\nmetric = "area"\nlimit = 1'
+        done = self.validate(self.study([check], head='curves = ["mine"]\n'))
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("expected ascending abscissae", done.stderr)
+
+    def test_a_wrong_check_is_found_before_the_dumps_are_read(self):
+        study = self.study(['quantity = "axial holdup"\nagainst = "no_such"\nmetric = "max error"\nlimit = 1'],
+                           run='label = "a"\nparticles = "no/such/dump*"\ntime_step = 1')
+        self.assertIn("no such curve", self.validate(study).stderr)
+
+    def test_an_earlier_summary_that_is_none(self):
+        study = self.study(['quantity = "axial holdup"\nagainst = 0.075\nmetric = "max error"\nlimit = 1'])
+        done = self.validate(study, "--earlier", study)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("expected a summary.json", done.stderr)
+        self.assertFalse(os.path.exists(self.folder + "/out"))
+
+    def tables(self, **files):
+        """Tables of another program, as the run "a"."""
+        os.makedirs(self.folder + "/a/tables", exist_ok=True)
+        for name, text in files.items():
+            with open(f"{self.folder}/a/tables/{name}.csv", "w") as file:
+                file.write(text)
+
+    def test_a_bed_is_judged_by_a_papers_signals(self):
+        """van Wachem et al. (2001): a height that fluctuates. The reference's numbers by numpy."""
+        height = np.array([(float(r["time [s]"]), float(r["bed_height [m]"]))
+                           for r in rows_of(PROJECT + "/data/curves/wachem_2001/bed_height.csv")])
+        time = np.arange(0, 20, 0.02)
+        surface = 0.16 + 0.03 * np.sin(2 * np.pi * 2.5 * time)
+        self.tables(bed_height="time [s],height_surface [m]\n" + "".join(f"{t},{h}\n" for t, h in zip(time, surface)))
+        check = 'quantity = "{}"\nagainst = "wachem_2001/bed_height"\nmetric = "relative bias"\nlimit = 1'
+        done = self.validate(self.study([check.format(q) for q in (
+            "bed height", "bed height deviation", "bed height frequency")]), "--json")
+        self.assertEqual(done.stderr, "")
+        mean, deviation, frequency = json.loads(done.stdout)["checks"]
+        span = np.diff(height[:, 0], prepend=np.nan)
+        weights = np.nan_to_num((span + np.roll(span, -1)) / 2)
+        weights[0], weights[-1] = span[1], span[-1]
+        known = np.average(height[:, 1], weights=weights)
+        self.assertAlmostEqual(mean["value"], abs(0.16 - known) / known, 2)
+        self.assertAlmostEqual(deviation["value"], abs(0.03 / np.sqrt(2) / height[:, 1].std() - 1), 1)
+        self.assertLess(frequency["value"], 0.5)
+        self.assertGreater(frequency["hi"], frequency["value"])
+
+    def test_gas_and_histories_of_another_program(self):
+        rows = [(k / 10, 500 + 10 * (-1) ** k) for k in range(100)]
+        self.tables(
+            pressure_drop="time [s],pressure_drop [Pa]\n" + "".join(f"{t},{p}\n" for t, p in rows),
+            gas_axial="z [m],voidage [-],velocity_z [m/s],temperature [K],pressure [Pa],slip_z [m/s]\n"
+                      + "".join(f"{z / 10},0.9,2,{300 + z},{100 - z},1.5\n" for z in range(11)),
+            gas_lateral="height [m],x [m],voidage [-]\n0.2,0.01,0.8\n0.2,0.02,0.9\n0.2,0.03,0.8\n",
+            temperature="time [s],mean [K],std [K]\n" + "".join(f"{t},{350 - t},2\n" for t in range(10)),
+            inventory="time [s],particles,solids_mass [kg]\n" + "".join(f"{t},10,{0.1 * t}\n" for t in range(10)))
+        os.makedirs(self.folder + "/mine")
+        with open(self.folder + "/mine/cool.csv", "w") as file:
+            file.write("time [s],temperature [K]\n0.5,349.5\n8.5,341.5\n")
+        ask = 'quantity = "{}"\nagainst = {}\nmetric = "{}"\nlimit = {}\n'
+        checks = [ask.format("pressure drop", 500, "relative bias", 0.01),
+                  ask.format("pressure drop deviation", 10, "relative bias", 0.05),
+                  ask.format("axial voidage", 0.9, "max error", 1e-12),
+                  ask.format("axial gas velocity", 2, "max error", 1e-12),
+                  ask.format("axial slip velocity", 1.5, "max error", 1e-12),
+                  ask.format("axial temperature", 305, "max error", 5.001),
+                  ask.format("axial gas temperature", 305, "max error", 5.001),
+                  ask.format("axial pressure", 95, "max error", 5.001),
+                  ask.format("lateral voidage", 0.85, "max error", 0.0501) + "at = { height = 0.2 }",
+                  ask.format("temperature history", '"cool"', "max error", 0.2),
+                  ask.format("temperature spread", 2, "relative bias", 1e-9),
+                  ask.format("inventory history", 0.45, "max error", 0.4501)]
+        done = self.validate(self.study(checks, head='curves = ["mine"]\n[scene]\naverage = {}\n'), "--json")
+        self.assertEqual(done.stderr, "")
+        self.assertEqual([c["reason"] for c in json.loads(done.stdout)["checks"] if c["verdict"] != "holds"], [])
+
+    def test_every_shipped_curve_says_where_it_comes_from(self):
+        for folder, _, files in os.walk(PROJECT + "/data/curves"):
+            for name in files:
+                if name.endswith(".csv"):
+                    with open(os.path.join(folder, name[:-4] + ".toml")) as file:
+                        sidecar = file.read()
+                    for key in ("title", "citation", "kind", "method", "by", "source", "licence", "redistribute",
+                                "uncertainty_note"):
+                        self.assertIn(f"\n{key} = ", "\n" + sidecar, name)
+
     def test_curves_lists_shows_and_prints(self):
         listed = bedscope("curves").stdout
         self.assertGreater(len(listed.splitlines()), 40)
@@ -162,6 +357,9 @@ class Validate(unittest.TestCase):
         points = bedscope("curves", "varas_2017/axial_holdup?U=5.55").stdout
         self.assertEqual(len([p for p in points.splitlines() if p[0].isdigit()]), 80)
         self.assertEqual(bedscope("curves", "varas_2017/axial").returncode, 2)
+        self.assertIn("assumed as for a digitised plot", bedscope("curves", "varas_2017/axial_holdup").stdout)
+        self.assertIn("theory:bed weight", listed)
+        self.assertIn("gas_density", bedscope("curves", "theory:bed weight").stdout)
 
 
 if __name__ == "__main__":

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/fuzz/fuzz.hpp"
 
+#include <fcntl.h>
 #include <sanitizer/allocator_interface.h>
 #include <sys/mman.h>
 #include <unistd.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 
@@ -23,6 +26,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t memory_factor = 64, memory_base = 16U << 20;
 constexpr std::size_t longest_line = 4 * 1800 + 10;  // see one_line(): \x1b for a character
 constexpr std::size_t most_parts = 40;
+constexpr std::size_t checksum_bytes = 4;  // at the end of what ArchiveWriter writes
 
 std::size_t held = 0, most_held = 0, input_bytes = 0;  // of the input at hand
 
@@ -98,10 +102,13 @@ std::map<std::string, std::string_view> parts_of(std::string_view input) {
 MemoryFolder::MemoryFolder(const std::map<std::string, std::string_view>& parts) {
   std::error_code error;
   const fs::path memory = "/dev/shm";
-  path_ = ((fs::is_directory(memory, error) ? memory : fs::temp_directory_path()) /
+  real_ = ((fs::is_directory(memory, error) ? memory : fs::temp_directory_path()) /
            "bedscope_fuzz_XXXXXX")
               .string();
-  require(::mkdtemp(path_.data()) != nullptr, "a folder can be made");
+  require(::mkdtemp(real_.data()) != nullptr, "a folder can be made");
+  folder_ = ::open(real_.c_str(), O_DIRECTORY | O_CLOEXEC);
+  require(folder_ >= 0, "a folder can be opened");
+  path_ = fmt::format("/proc/self/fd/{}", folder_);
   for (const auto& [name, bytes] : parts) {
     const auto file = fs::path(path_) / name;
     fs::create_directories(file.parent_path(), error);  // fails where a part is a file: left out
@@ -111,7 +118,41 @@ MemoryFolder::MemoryFolder(const std::map<std::string, std::string_view>& parts)
 
 MemoryFolder::~MemoryFolder() {
   std::error_code ignored;
-  fs::remove_all(path_, ignored);
+  fs::remove_all(real_, ignored);
+  ::close(folder_);
+}
+
+KeptFile::KeptFile(const fs::path& folder, const std::function<void()>& make) {
+  make();
+  for (const auto& item : fs::directory_iterator(folder)) path_ = item.path();
+  std::ifstream file(path_, std::ios::binary);
+  whole_.assign(std::istreambuf_iterator<char>(file), {});
+  require(whole_.size() > checksum_bytes, "the program keeps a file");
+}
+
+void KeptFile::change(std::string_view input, bool valid) const {
+  auto bytes = whole_.substr(0, whole_.size() - checksum_bytes);
+  auto checksum = whole_.substr(bytes.size());
+  for (; input.size() >= 4 && !bytes.empty(); input.remove_prefix(4)) {
+    const auto low = static_cast<unsigned char>(input[0]),
+               high = static_cast<unsigned char>(input[1]);
+    const auto at = (low + 256U * high) % bytes.size();
+    if (input[2] == 'c')
+      bytes.resize(at);
+    else if (input[2] == 'd')
+      bytes.erase(at, 1);
+    else if (input[2] == 'i')
+      bytes.insert(at, 1, input[3]);
+    else
+      bytes[at] = input[3];
+  }
+  if (valid) {
+    const auto sum = static_cast<std::uint32_t>(
+        ::crc32_z(0, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()));
+    std::memcpy(checksum.data(), &sum, checksum_bytes);
+  }
+  std::ofstream(path_, std::ios::binary) << bytes << checksum;
+  add_input(bytes.size());
 }
 
 namespace {

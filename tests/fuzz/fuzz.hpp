@@ -3,6 +3,8 @@
 // with such an input. fuzz.cpp calls it and holds it to the promises of docs/reliability.md.
 #pragma once
 
+#include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 #include <string_view>
@@ -42,7 +44,8 @@ class MemoryFile {
 /// such line is dropped, as are parts with odd paths.
 std::map<std::string, std::string_view> parts_of(std::string_view input);
 
-/// A folder in memory that holds the parts of one input; gone with the object.
+/// A folder in memory that holds the parts of one input; gone with the object. Its path stays the
+/// same from input to input and from run to run, which libFuzzer needs to do the same again.
 class MemoryFolder {
  public:
   explicit MemoryFolder(const std::map<std::string, std::string_view>& parts);
@@ -53,7 +56,25 @@ class MemoryFolder {
   const std::string& path() const { return path_; }
 
  private:
+  std::string real_;
+  int folder_ = -1;
   std::string path_;
+};
+
+/// A file that the program keeps for itself (readers/archive.hpp), whole when made.
+class KeptFile {
+ public:
+  /// `make` leaves it as the only file in `folder`.
+  KeptFile(const std::filesystem::path& folder, const std::function<void()>& make);
+
+  /// Writes it with the changes that `input` asks for, in records of four bytes: a place (two),
+  /// what (c: cut there, d: leave out, i: insert, else: replace), and a byte. `valid`: the checksum
+  /// is that of the changed bytes. Without changes it is what was made.
+  void change(std::string_view input, bool valid = true) const;
+
+ private:
+  std::filesystem::path path_;
+  std::string whole_;
 };
 
 }  // namespace bedscope::fuzz

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs every fuzz target by hand for a long time, one after the other, and keeps a table of it.
+"""Runs fuzz targets by hand for a long time, one after the other, and keeps a table of it.
 
-    long.py CPU_SECONDS [FOLDER]      after tests/fuzz/build.sh .
+    long.py CPU_SECONDS [FOLDER [TARGET ...]]      after tests/fuzz/build.sh .; all targets where none is named
 
-CPU_SECONDS (of all targets together) are shared out evenly and counted as used, not by the clock, so
+CPU_SECONDS (of these targets together) are shared out evenly and counted as used, not by the clock, so
 it may run at low priority beside other work: `setsid nohup nice -n 19 tests/fuzz/long.py 7200 &`.
 FOLDER (default /tmp/bedscope_fuzz) gets copies of the programs, the corpus, which a next run goes on
 from, logs, findings and table.md.
@@ -90,14 +90,16 @@ def write_table(targets, path, done):
 
 
 def main():
-    if len(sys.argv) not in (2, 3):
+    if len(sys.argv) < 2:
         sys.exit(__doc__)
     total = float(sys.argv[1])
-    folder = Path(sys.argv[2] if len(sys.argv) == 3 else "/tmp/bedscope_fuzz").resolve()
+    folder = Path(sys.argv[2] if len(sys.argv) > 2 else "/tmp/bedscope_fuzz").resolve()
+    wanted = sys.argv[3:]
     for name in ("bin", "logs", "findings"):
         (folder / name).mkdir(parents=True, exist_ok=True)
     shutil.copytree(built / "seeds", folder / "seeds", dirs_exist_ok=True)
-    targets = [Target(*line.split(), folder) for line in (built / "targets.txt").read_text().splitlines()]
+    targets = [Target(*line.split(), folder) for line in (built / "targets.txt").read_text().splitlines()
+               if not wanted or line.split()[0] in wanted]
     for target in targets:
         shutil.copy(built / f"fuzz_{target.program}", folder / "bin")
     table = folder / "table.md"

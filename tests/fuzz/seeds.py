@@ -65,6 +65,33 @@ for name, text in texts.items():
 write("liggghts_gzip", "members", gzip.compress(texts["plain"].encode(), mtime=0) +
       gzip.compress(dump(200).encode(), 0, mtime=0) + b"tail")
 
+# -- LIGGGHTS binary ----------------------------------------------------------------------------
+
+def binary_dump(step=100, rows=((1, 1, .1, .2, .3, .01), (2, 2, .4, .5, .6, .01)), tilt=(), names=None, boundary=1, cut=1):
+    """`names`: LAMMPS since 2020, revision 2; `cut`: chunks."""
+    columns = len(rows[0]) if rows else 6
+    head = struct.pack("<qq7i6d", step, len(rows), bool(tilt), *[boundary] * 6, 0, 1, 0, 1, 0, 1)
+    head += struct.pack(f"<{len(tilt)}di", *tilt, columns)
+    if names is not None:
+        head = struct.pack("<q10sii", -10, b"DUMPCUSTOM", 1, 2) + head
+        head += struct.pack("<i2sbd", 2, b"si", 1, .5) + struct.pack(f"<i{len(names)}s", len(names), names.encode())
+    head += struct.pack("<i", cut)
+    for chunk in (rows[k::cut] for k in range(cut)):
+        values = [value for row in chunk for value in row]
+        head += struct.pack(f"<i{len(values)}d", len(values), *values)
+    return head
+
+
+write("liggghts_bin", "plain", binary_dump())
+write("liggghts_bin", "chunks", binary_dump(cut=2) + binary_dump(200, cut=3))
+write("liggghts_bin", "several", binary_dump(0) + binary_dump(100, rows=()) + binary_dump(200, boundary=2))
+write("liggghts_bin", "triclinic", binary_dump(tilt=(.1, 0, 0), boundary=0))
+write("liggghts_bin", "names", binary_dump(names="id type x y z radius") + binary_dump(200, names="id type x y z radius"))
+write("liggghts_bin", "vectors", binary_dump(rows=((1, .1, .2, .3, .01, float("nan")),), names="id xs ys zs diameter diameter"))
+write("liggghts_bin", "cut", binary_dump() + binary_dump(200)[:-9])
+write("liggghts_bin", "zeros", binary_dump() + bytes(100))
+write("liggghts_bin", "gzip", gzip.compress(binary_dump(cut=2), mtime=0))
+
 # -- VTK legacy -----------------------------------------------------------------------------------
 
 def legacy(version="3.0", binary=False, grid="POLYDATA"):
@@ -180,6 +207,32 @@ write("folder", "legacy", parts({"a_1.vtk": legacy(), "a_2.vtk": legacy(),
                                  "a_boundingBox_1.vtk": (data / "vtk_legacy" / "triclinic_boundingBox_2000.vtk").read_bytes()}))
 write("folder", "xml", parts({"a_1.vtp": xml(), "a_2.vtp": xml("appended"), "readme": "hello\n"}))
 write("folder", "pieces", parts({"dump100_0": dump(100), "dump100_1": dump(100), "log.liggghts": "timestep 1e-5\n"}))
+
+
+
+def names_of(kind, *files):
+    """A .pvtp, .pvtu, .vtm, .pvd or .series that names files."""
+    if kind == "series":
+        return ('{ "file-series-version" : "1.0", "files" : [' +
+                ", ".join(f'{{ "name" : "{file}", "time" : {k / 8} }}' for k, file in enumerate(files)) + " ] }\n")
+    element = {"PPolyData": '<Piece Source="{1}"/>', "PUnstructuredGrid": '<Piece Source="{1}"/>',
+               "vtkMultiBlockDataSet": '<Block index="0" name="b"><DataSet index="{0}" name="x" file="{1}"/></Block>',
+               "Collection": '<DataSet timestep="{2}" group="" part="0" file="{1}"/>'}[kind]
+    named = "".join(element.format(k, file, k / 8) for k, file in enumerate(files))
+    return f'<?xml version="1.0"?>\n<VTKFile type="{kind}" version="0.1" byte_order="LittleEndian"><{kind}>{named}</{kind}></VTKFile>\n'
+
+
+grid = xml("binary", "vtkZLibDataCompressor", "UInt64", "BigEndian", "UnstructuredGrid")
+write("folder", "pvtp", parts({"a_1.pvtp": names_of("PPolyData", "a_1_0.vtp", "a_1_1.vtp"), "a_1_0.vtp": xml(), "a_1_1.vtp": xml("binary")}))
+write("folder", "pvtu", parts({"a_1.pvtu": names_of("PUnstructuredGrid", "p/0.vtu", "p/1.vtu"), "p/0.vtu": grid, "p/1.vtu": grid}))
+write("folder", "vtm", parts({"a_1.vtm": names_of("vtkMultiBlockDataSet", "a/a.vtp"), "a/a.vtp": xml(), "a_2.vtm": names_of("vtkMultiBlockDataSet", "a/b.vtp"), "a/b.vtp": xml()}))
+write("folder", "pvd", parts({"a.pvd": names_of("Collection", "a_1.vtp", "a_2.vtp"), "a_1.vtp": xml(), "a_2.vtp": xml("appended")}))
+write("folder", "pvd_of_pvtp", parts({"a.pvd": names_of("Collection", "a_1.pvtp", "a_2.pvtp"), "a_1.pvtp": names_of("PPolyData", "0.vtp"),
+                                      "a_2.pvtp": names_of("PPolyData", "0.vtp"), "0.vtp": xml()}))
+write("folder", "series", parts({"a.vtp.series": names_of("series", "a_1.vtp", "a_2.vtp"), "a_1.vtp": xml(), "a_2.vtp": xml()}))
+write("folder", "itself", parts({"a.pvd": names_of("Collection", "b.pvd"), "b.pvd": names_of("Collection", "a.pvd")}))
+write("folder", "binary", parts({"dump1.bin": binary_dump(1, names="id type x y z radius"), "dump2.bin": binary_dump(2, names="id type x y z radius")}))
+write("folder", "processors", parts({"dump1_0.bin": binary_dump(1), "dump1_1.bin": binary_dump(1)}))
 
 write("log", "log", "LIGGGHTS (Version)\nvariable dt equal 1e-5\ntimestep ${dt}\ntimestep 1e-05\n"
       "fix pts all particletemplate/sphere 15485863 atom_type 1 density constant 2500 radius constant 1e-3\n"
@@ -299,6 +352,31 @@ write("foam_case", "ranks", parts({"system/controlDict": "application x;\n", **c
 write("foam_case", "collated", parts({"system/controlDict": "application x;\n", **{
     f"processors2/{name}": collated(text, text) for name, text in case().items()}}))
 
+points_of = "# Probe 0 (0.01 0 0.05)\n# Probe 1 (0.01 0 0.1)\n# Probe 2 (9 9 9)  # Not Found\n"
+pressures = points_of + "#   Probe   0   1   2\n#    Time\n0.1 1e5 9e4 -1e+300\n0.2 1.1e5 9.1e4 -1e+300\n"
+velocities = points_of + "#   Probe   0   1   2\n#    Time\n0.1 (0 0 1) (0 0 2) (-1e+300 -1e+300 -1e+300)\n"
+patch = ("# Region type : patch outlet\n# Faces : 100\n# Area : 1.2e-03\n# Time\tareaAverage(p)\tareaAverage(U)\n"
+         "0.1\t1e5\t(0 0 1)\n0.2\t1e5\t(0 0 1.1)\n")
+solver = "# Solver information\n# Time  p_solver  p_initial  p_converged\n0.1  GAMG  1e-3  true\n0.2  GAMG  1e-4  false\n"
+forces = "# Forces\n# Time forces(pressure viscous porous) moment(pressure viscous porous)\n1 ((1 0 0) (2 0 0) (3 0 0)) ((1 0 0) (2 0 0) (3 0 0))\n"
+write("foam_table", "probes", parts({"0/p": pressures}))
+write("foam_table", "restarted", parts({"0/p": pressures, "0.15/p": pressures.replace("0.1 1e5", "0.15 1e5")}))
+write("foam_table", "suffix", parts({"0/p": pressures, "0/p_0.15": pressures.replace("0.1 1e5", "0.15 1e5")}))
+write("foam_table", "vectors", parts({"0/U": velocities}))
+write("foam_table", "several", parts({"0/p": pressures, "0/U": velocities}))
+write("foam_table", "patch", parts({"0/surfaceFieldValue.dat": patch, "0.2/surfaceFieldValue.dat": patch.replace("0.1\t", "0.2\t")}))
+write("foam_table", "words", parts({"solverInfo.dat": solver}))
+write("foam_table", "nested", parts({"forces.dat": forces}))
+write("foam_table", "cut", parts({"0/p": pressures + "0.3 1.2e5"}))
+write("foam_table", "back", parts({"0/p": pressures + "0.15 1e5 9e4 -1e+300\n"}))
+write("foam_table", "set", parts({"line.csv": "x,p\n0,1\n1,2\n"}))
+write("foam_table", "gzip", parts({"0/p": gzip.compress(patch.encode(), mtime=0)}))
+# -- gas out of VTK -------------------------------------------------------------------------------
+
+for path in sorted((data / "vtk_gas").rglob("*.vt[uk]")):
+    if path.stat().st_size < 40000:
+        write("vtk_gas", "_".join(path.relative_to(data / "vtk_gas").parts), path.read_bytes())
+
 # -- ours -----------------------------------------------------------------------------------------
 
 write("study", "full", """title = "t"
@@ -350,3 +428,44 @@ write("tables", "all", parts({
     "temperature.csv": "run,time [s],type,mean [K],std [K],min [K],max [K]\nr,0.1,all,300,1,299,301\n",
     "temperature_pdf.csv": "run,type,bin_centre [-],probability_density [-]\nr,all,0.25,1\nr,all,0.75,1\n"}))
 write("tables", "two_runs", parts({"cluster_occurrence.csv": "time [s],clusters,run\n0.1,1,run\n0.2,1,other\r\n"}))
+
+write("curves", "plain", parts({"a/holdup.csv": "U [m/s],x [m],holdup [-]\n5.55,0,0.1\n5.55,0.01,0.2\n7,0,0.3\n",
+                                "a/holdup.toml": 'title = "t"\nmethod = "digitised"\nabscissa = "x"\nordinate = "holdup"\n'
+                                'abscissa_uncertainty = 0.001\nordinate_uncertainty = "3 %"\n[conditions]\nU = 5.55\n'}))
+write("curves", "digitised", parts({"fig4.csv": "series,z [m],z_u [m],holdup [-],holdup_u [-],holdup_lo [-],holdup_hi [-]\n"
+                                    "a,0.1,0.001,0.2,0.01,0.1,0.3\nb,0.2,0.001,0.1,0.01,nan,nan\n"}))
+write("curves", "intervals", parts({"b.csv": "height [m],x [m],v [m/s],v_ci95 [m/s]\n0.8,0,1,0.1\n0.8,1,2,0.1\n",
+                                    "b.toml": 'orientation = "unknown"\nmethod = "original"\ncaveats = ["c"]\nordinate_uncertainty = "v_ci95"\n'}))
+write("curves", "bars", parts({"b.csv": "x [m],v [-],v_lo [-],v_hi [-]\n0,1,0.9,1.1\n", "b.toml": 'abscissa_uncertainty = "not stated"\n'}))
+write("curves", "withheld", parts({"c.toml": 'redistribute = "no"\ncitation = "A 2001"\n'}))
+write("curves", "table", parts({"t.csv": 'name,value\n"a, b",1\n', "t.toml": "table = true\n"}))
+
+write("summary", "checks", """{"runs": [{"label": "r", "mean_holdup": 0.1}], "checks": [
+ {"key": "r: holdup", "quantity": "lateral holdup", "at": {"height": 0.8}, "value": 0.1, "lo": 0.05, "hi": 0.2, "verdict": "holds"},
+ {"key": "r: inventory", "quantity": "inventory", "value": null, "verdict": "skipped"}], "version": "0"}
+""")
+
+axes = """image = "plot.png"
+[axes.x]
+name = "z"
+unit = "m"
+points = [ { pixel = [20, 70], value = 0 }, { pixel = [110, 70], value = 1.5 } ]
+[axes.y]
+name = "holdup"
+%spoints = [ { pixel = [20, 70], value = 0.1 }, { pixel = [20, 10], value = 10 } ]
+[[series]]
+name = "experiment"
+"""
+write("figure", "markers", axes % "" + 'kind = "markers"\ncolour = "#ff0000"\n')
+write("figure", "line", axes % 'scale = "log"\n' + 'kind = "line"\ncolour = "blue"\npoints = 20\n')
+write("figure", "both", "plot_area = [20, 10, 90, 60]\nexclude = [[22, 12, 20, 8]]\nrotation = 0.0\n" + axes % "" +
+      'colour = "#f00"\nshape = "filled triangle"\nerror_bars = false\n[[series]]\nname = "line"\nkind = "line"\ncolour = "#0000ff"\n')
+write("figure", "template", axes % "" + 'colour = "red"\ntemplate = [26, 49, 12, 12]\nreference = [32, 55]\n')
+
+# What the program keeps for itself is made by the program; an input holds changes to it: kept_run.cpp.
+for target in ("dump_index", "kept_run"):
+    write(target, "none", b"")
+    write(target, "cut", b"\x40\x00c\x00")
+    write(target, "changes", b"\x80\x00x\xff\x81\x00i\x01\x90\x00d\x00")
+    for place in range(64, 640, 32):
+        write(target, f"byte_{place}", struct.pack("<Hcc", place, b"x", b"\xff"))

@@ -167,6 +167,26 @@ TEST(FileIndex, BlocksThatAreNoParticlesAreLeftOut) {
     EXPECT_NE(left.find(what), std::string::npos) << what;
 }
 
+TEST(FileIndex, WhereNothingIsNamedThereWereNoParticles) {  // so LIGGGHTS 3.8 writes them
+  const TemporaryFolder folder;
+  const auto box = bytes_of(data / "liggghts_parallel" / "case_1000" / "case_1000_3.vtr");
+  for (const auto* name : {"box_0.vtr", "box_10.vtr"}) folder.write(name, box);
+  folder.write("a_10.vtp", vtp(1, 2));
+  folder.write("p_0.pvtp", pvtp({}));
+  folder.write("p_10.pvtp", pvtp({"a_10.vtp"}));
+  folder.write("c_0.vtm", vtm({"box_0.vtr"}));
+  folder.write("c_10.vtm", vtm({"a_10.vtp", "box_10.vtr"}));
+  folder.write("p.pvd", pvd({{"0.5", "p_0.pvtp"}, {"1.5", "p_10.pvtp"}}));
+  for (const char* name : {"p_*", "c_*", "p.pvd"}) {
+    const auto series = Series::open(folder.path(name));
+    const auto found = look(series);
+    EXPECT_EQ(found.steps, (std::vector<std::int64_t>{0, 10}));
+    EXPECT_EQ(found.ids, (Ids{{}, {1, 2}}));
+    EXPECT_EQ(series.columns(), (std::vector<std::string>{"id"}));
+    EXPECT_TRUE(series.problems().empty());
+  }
+}
+
 TEST(FileIndex, IndicesInIndicesAreFollowed) {
   const TemporaryFolder folder;
   fs::create_directory(folder.path("case_10"));
@@ -214,6 +234,37 @@ TEST(FileIndex, GhostPointsOfPiecesAreCountedOnce) {
   EXPECT_EQ(series.place(0, 2), folder.path("a.vtp") + ": point 2");
   EXPECT_EQ(series.place(0, 3), folder.path("b.vtp") + ": point 2");
   EXPECT_EQ(look(Series::open(folder.path("a.vtp"))).ids, (Ids{{1, 2, 3, 4}}));  // by itself
+}
+
+// Legacy files have no index of pieces of their own: a .pvd names them.
+TEST(FileIndex, GhostPointsOfLegacyFilesAreCountedOnce) {
+  const TemporaryFolder folder;
+  const auto vtk = [](int first, int last, const std::string& array, const std::string& values) {
+    std::string points, cells, ids;
+    for (int id = first; id <= last; ++id) {
+      points += fmt::format("{} 0 0\n", id);
+      cells += fmt::format("1 {}\n", id - first);
+      ids += fmt::format("{} ", id);
+    }
+    const int n = last - first + 1;
+    return fmt::format(
+        "# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\nPOINTS {0} float\n{1}VERTICES {0} "
+        "{2}\n{3}POINT_DATA {0}\nSCALARS {4} unsigned_char 1\nLOOKUP_TABLE default\n{5}\nFIELD "
+        "FieldData 2\nid 1 {0} int\n{6}\nradius 1 {0} float\n{7}\n",
+        n, points, 2 * n, cells, array, values, ids,
+        fmt::join(std::vector<double>(static_cast<std::size_t>(n), 0.5), " "));
+  };
+  folder.write("a.vtk", vtk(1, 4, "vtkGhostType", "0 0 0 1"));
+  folder.write("b.vtk", vtk(2, 6, "vtkGhostType", "1 33 0 32 0"));
+  folder.write("d.vtk", vtk(1, 4, "vtkGhostLevels", "0 0 0 1"));
+  folder.write("e.vtk", vtk(2, 6, "vtkGhostLevels", "2 1 0 0 0"));
+  for (const auto& [first, second] : {std::pair{"a.vtk", "b.vtk"}, {"d.vtk", "e.vtk"}}) {
+    const auto list = pvd({{"0.5", first}, {"0.5", second}});
+    const auto series = Series::open(folder.write("c.pvd", list));
+    EXPECT_EQ(look(series).ids, (Ids{{1, 2, 3, 4, 5, 6}})) << first;
+    EXPECT_EQ(series.place(0, 3), folder.path(second) + ": point 2");
+  }
+  EXPECT_EQ(look(Series::open(folder.path("a.vtk"))).ids, (Ids{{1, 2, 3, 4}}));  // by itself
 }
 
 TEST(FileIndex, FilesOfOneTimeAreOneSnapshot) {
@@ -275,7 +326,7 @@ TEST(FileIndex, ErrorsNameTheLineOfTheIndex) {
   EXPECT_EQ(error("a.pvtp", pvtp({"good.vtp", "more.vtp"})).substr(0, 39),
             "line 3: piece good.vtp has no array q, ");
   EXPECT_TRUE(error("a.pvtp", pvtp({"text.vtp"})).starts_with("line 3: piece text.vtp: "));
-  EXPECT_EQ(error("a.pvtp", pvtp({})), "names no files");
+  EXPECT_EQ(error("a.pvd", pvd({})), "names no files");
   EXPECT_EQ(error("a.pvd", pvd({{"x", "good.vtp"}})), "line 3: expected a time, found 'x'");
   EXPECT_EQ(error("a.series", series_file({{"1", "good.vtp"}, {"2", "gone.vtp"}})),
             "line 3: file gone.vtp not found");

@@ -112,6 +112,16 @@ TEST(LiggghtsBin, ACutLastSnapshotIsLeftOutAndSaid) {
   EXPECT_TRUE(zeros.cut());
 }
 
+TEST(LiggghtsBin, AStepThatOccursTwiceIsToldWithBothOffsets) {
+  const TemporaryFolder folder;
+  const auto one = bin_dump({.step = 5});
+  const auto path = folder.write("all.bin", one + one);
+  EXPECT_EQ(error_of([&] { Series::open(path); }),
+            fmt::format("{} (offset {}): step 5 occurs twice, also in {} (offset 0): say repeated "
+                        "= \"first\" or \"last\", or name one dump with a pattern",
+                        path, one.size(), path));
+}
+
 TEST(LiggghtsBin, ColumnsThatAreDoubledMustAgree) {
   const TemporaryFolder folder;
   const auto path = folder.write("d", bin_dump({}));

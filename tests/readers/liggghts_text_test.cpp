@@ -207,7 +207,12 @@ TEST(LiggghtsText, ALastRowWithoutLineEndIsWholeOnlyWithTheBlankThatLiggghtsWrit
   const auto text = small_dump(9, 4);
   expect_small(read_text(text.substr(0, text.size() - 1), all_of_small), 9, 4);
   EXPECT_EQ(error_of_text(text.substr(0, text.size() - 2)),
-            "line 13: 6 values expected, 6 found; no line end: file is cut");
+            "line 13: the last value has no blank or line end behind it: file is cut");
+}
+
+TEST(LiggghtsText, AHeaderThatBeginsTwiceIsADumpThatWasKilledAndWentOn) {
+  EXPECT_EQ(error_of_text("ITEM: TIMESTEP\n8\n" + small_dump(9, 4)),
+            "line 3: \"ITEM: TIMESTEP\" twice, of step 8 without its particles");
 }
 
 TEST(LiggghtsText, ABoxWithoutBoundaryFlagsIsOldLammps) {

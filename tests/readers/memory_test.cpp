@@ -4,6 +4,7 @@
 #include <malloc.h>
 
 #include <algorithm>
+#include <cstring>
 #include <new>
 
 #include "readers/openfoam_blocks.hpp"
@@ -13,6 +14,7 @@
 #include "readers/openfoam_list.hpp"
 #include "readers/series.hpp"
 #include "readers/survey.hpp"
+#include "tests/readers/bin_dump.hpp"
 #include "tests/readers/test_files.hpp"
 
 namespace {
@@ -36,6 +38,8 @@ void uncounted(void* memory) {
 
 void* operator new(std::size_t size) { return counted(size); }
 void* operator new[](std::size_t size) { return counted(size); }
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept { return counted(size); }
+void* operator new[](std::size_t size, const std::nothrow_t&) noexcept { return counted(size); }
 void operator delete(void* memory) noexcept { uncounted(memory); }
 void operator delete[](void* memory) noexcept { uncounted(memory); }
 void operator delete(void* memory, std::size_t) noexcept { uncounted(memory); }
@@ -81,6 +85,12 @@ std::vector<Claim> dumps() {
   const auto rows = replaced(small_dump(100, 30), "ATOMS\n30\n", "ATOMS\n" + huge + "\n");
   const std::string good = vtk("POINTS 1 float\n0 0 0\n");
   const std::string zeros(3, '\0');
+  const auto bin = bin_dump({.chunks = {1}});
+  const auto bin_with = [&](std::size_t at, auto claim) {
+    auto bytes = bin;
+    std::memcpy(bytes.data() + at, &claim, sizeof claim);
+    return bytes;
+  };
   const std::string points = "<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=";
   return {
       {"text", text},
@@ -88,6 +98,11 @@ std::vector<Claim> dumps() {
       {"text_rows_gzip", gzip(rows)},
       {"text_several", small_dump(1, 2) + text},
       {"text_gzip", gzip(text)},
+      {"bin_particles", bin_with(8, std::int64_t{1} << 40)},
+      {"bin_columns", bin_with(92, std::int32_t{1000})},
+      {"bin_chunks", bin_with(96, std::int32_t{2'000'000'000})},
+      {"bin_chunk", bin_with(100, std::int32_t{2'000'000'000})},
+      {"bin_gzip", gzip(bin_with(8, std::int64_t{1} << 40))},
       {"vtk_points", vtk("POINTS " + huge + " float\n0 0 0\n")},
       {"vtk_points_binary", vtk("POINTS " + huge + " float\n" + zeros, "BINARY")},
       {"vtk_points_gzip", gzip(vtk("POINTS " + huge + " double\n" + zeros, "BINARY"))},
@@ -124,6 +139,7 @@ std::vector<Claim> dumps() {
 std::string good_beside(const Claim& claim, std::int64_t step) {
   const std::string name = claim.name;
   if (name.starts_with("text")) return small_dump(step, 2);
+  if (name.starts_with("bin")) return bin_dump({.step = step});
   if (name.starts_with("vtk")) return small_vtk(2);
   return xml("1", "<DataArray type=\"Float64\" NumberOfComponents=\"3\">0 0 0</DataArray>");
 }
@@ -150,6 +166,19 @@ TEST_P(DumpMemory, HugeClaimsCostNothing) {
 
 INSTANTIATE_TEST_SUITE_P(Readers, DumpMemory, testing::ValuesIn(dumps()),
                          [](const auto& claim) { return std::string(claim.param.name); });
+
+TEST(Memory, OfSnapshotsWithoutParticlesIsAFewTimesTheirBytesHoweverManyColumnsTheyClaim) {
+  TemporaryFolder folder;
+  std::string bytes;
+  for (std::int32_t step = 0; step < 1000; ++step) {
+    auto one = bin_dump({.step = step, .chunks = {}});
+    const std::int32_t columns = 999 + step % 2;
+    std::memcpy(one.data() + 92, &columns, sizeof columns);
+    bytes += one;
+  }
+  const auto path = folder.write("dump.bin", bytes);
+  EXPECT_LT(memory_of([&] { error_of([&] { Series::open(path); }); }), buffers + 64 * bytes.size());
+}
 
 std::string foam(const std::string& class_name, const std::string& rest,
                  const std::string& format = "ascii") {

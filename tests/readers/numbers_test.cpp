@@ -153,6 +153,14 @@ TEST(Numbers, NanAndInfinityAreReadAsThePrintedOnesOfARunThatBlewUp) {
   }
 }
 
+TEST(Numbers, WhatWindowsPrintsForNanAndInfinityIsRead) {
+  double value = 0;
+  for (const char* text : {"1.#QNAN", "-1.#IND", "-1.#IND00", "-nan(ind)"})
+    EXPECT_TRUE(parses(text, value) && std::isnan(value)) << text;
+  EXPECT_TRUE(parses("-1.#INF", value) && value < 0 && std::isinf(value));
+  for (const char* text : {"1.#", "1.5#", "1#2", "#IND", "1.#OK"}) EXPECT_FALSE(is_number(text));
+}
+
 TEST(Numbers, APlusInFrontIsAccepted) {
   double value = 0;
   EXPECT_TRUE(parses("+2.5e-3", value));

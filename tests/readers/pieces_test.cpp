@@ -106,6 +106,17 @@ TEST(Pieces, AreJoinedStepByStepInTheOrderOfTheirNumbers) {
   }
 }
 
+TEST(Pieces, MayHaveTheirNumberBeforeTheStep) {  // LAMMPS: dump p%.*.txt
+  const TemporaryFolder folder;
+  for (const int step : {0, 500, 1000})
+    for (const int k : {0, 1, 2})
+      folder.write(fmt::format("run2_p{}.{}.txt", k, step), piece(step, 10 * k, 10 * k + 9));
+  const auto series = Series::open(folder.path());
+  EXPECT_EQ(steps_of(series), (Steps{0, 500, 1000}));
+  EXPECT_EQ(series.particles(2), 30);
+  EXPECT_TRUE(series.problems().empty()) << all(series.problems());
+}
+
 TEST(Pieces, OfManySnapshotsEachAreJoinedStepByStep) {
   const TemporaryFolder folder;
   folder.write("dump.txt_0", piece(1, 0, 4) + piece(2, 0, 3) + piece(3, 0, 3));

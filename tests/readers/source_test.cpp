@@ -9,6 +9,7 @@
 #include <random>
 
 #include "readers/byte_window.hpp"
+#include "readers/text_file.hpp"
 #include "tests/readers/test_files.hpp"
 
 namespace bedscope::readers {
@@ -215,6 +216,32 @@ TEST(ByteWindow, LinesAreWholeHoweverSmallTheWindow) {
     }
     ASSERT_FALSE(window.line().has_value());
   }
+}
+
+TEST(TextFile, IsReadWholeAndRefusedWhereItIsLongerThanAccepted) {
+  const TemporaryFolder folder;
+  for (const std::size_t size : {0, 1, 65'535, 65'536, 65'537, 300'000}) {
+    const auto text = lines_of_numbers(size);
+    for (const auto& path : {folder.write("plain", text), folder.write("gzip", gzip(text))}) {
+      EXPECT_EQ(read_text(path), text);
+      EXPECT_EQ(read_text(path, std::max<std::size_t>(size, 1)), text);
+      if (size > 1) {
+        EXPECT_NE(error_of([&] { read_text(path, size - 1); }), "") << size;
+      }
+    }
+  }
+  const auto cut = folder.write("cut", gzip(lines_of_numbers(1000)).substr(0, 200));
+  EXPECT_NE(error_of([&] { read_text(cut); }).find("ends early"), std::string::npos);
+}
+
+TEST(TextFile, IsNoPipeNoDeviceAndNoFolder) {
+  const TemporaryFolder folder;
+  const auto pipe = folder.path("pipe");
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_EQ(error_of([&] { read_text(pipe); }), pipe + ": not a regular file");
+  EXPECT_EQ(error_of([&] { read_text("/dev/zero"); }), "/dev/zero: not a regular file");
+  EXPECT_EQ(error_of([&] { read_text(folder.path()); }),
+            folder.path() + ": is a directory, expected a file");
 }
 
 }  // namespace

@@ -376,6 +376,8 @@ TEST(VtkLegacy, CompanionsAreNamedForWhatTheyAre) {
             "points without vertices and without a radius, not particles");
   const auto sized = replaced(small_vtk(3), "VERTICES 3 6\n1 0\n1 1\n1 2\n", "");
   EXPECT_EQ(scan_text(sized).not_particles, "");  // a radius makes them particles
+  for (const char* name : {"Diameter", "diameter", "radii", "d"})
+    EXPECT_EQ(scan_text(replaced(sized, "radius", name)).not_particles, "") << name;
 }
 
 TEST(VtkLegacy, AGlanceGivesTheCountOfParticles) {

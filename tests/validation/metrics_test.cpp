@@ -111,6 +111,20 @@ TEST(Intervals, HoldTheTrueRmseInNineteenOfTwentyOrMore) {
   EXPECT_GE(held, trials * 93 / 100);
 }
 
+TEST(Intervals, OfTheLargestErrorAllowForTheChoiceAmongPoints) {
+  // 4 points, E = 1, u = 0.1: up 1.96 u, down 2.4977 u (2.5 % / 4 of a normal tail).
+  const auto found = evaluate(find_metric("max error"), comparison({3, 3, 3, 3}, {2, 2, 2, 2}, .1));
+  EXPECT_NEAR(found.hi, 1 + .195996, 1e-5);
+  EXPECT_NEAR(found.lo, 1 - .249771, 1e-5);
+  EXPECT_EQ(found.reference_half_width, 0);
+}
+
+TEST(Intervals, OfErrorOverUncertaintyAreItsValue) {
+  const auto found = evaluate(find_metric("e over u"), comparison({3, 3}, {2, 2}, .3, .4));
+  EXPECT_DOUBLE_EQ(found.lo, found.value);
+  EXPECT_DOUBLE_EQ(found.hi, found.value);
+}
+
 TEST(Intervals, AreTheSameEachTime) {
   const auto c = comparison({1, 2, 6}, {2, 2, 4}, .2, .3);
   const auto a = evaluate(find_metric("max error"), c), b = evaluate(find_metric("max error"), c);

@@ -75,6 +75,11 @@ TEST(Verdicts, ErrorOverUncertaintyAlsoNeedsAnAccuracy) {
   const auto vague = verdict_of(check, run("a", 1.005, .001));
   EXPECT_EQ(vague.outcome, Outcome::undecided);
   EXPECT_NE(vague.reason.find("accuracy"), std::string::npos);
+  EXPECT_NE(vague.reason.find("no simulation can settle it"), std::string::npos) << vague.reason;
+  check.number_u = .0005;  // 1.96 u 0.2 of the mean, 0.1 asked for: a fourth of the time for half
+  const auto short_run = verdict_of(check, run("a", 1.005, .015));
+  EXPECT_EQ(short_run.outcome, Outcome::undecided);
+  EXPECT_NE(short_run.reason.find("31 s more"), std::string::npos) << short_run.reason;
 }
 
 TEST(Verdicts, TheUndecidedSayHowMuchMoreSimulationWouldSettleThem) {
@@ -154,7 +159,9 @@ TEST(Families, TakeTheExperimentsOwnScatterOut) {
   const auto found = families(std::vector{verdict});
   ASSERT_EQ(found.size(), 1U);
   EXPECT_NEAR(found[0].scatter, s_model, .01);
-  EXPECT_NEAR(found[0].bias, 1.3 * std::exp(s_model * s_model / 2), .02);
+  // Of the means: those of M and E are exp(s^2 / 2) above their medians.
+  EXPECT_NEAR(found[0].bias, 1.3 * std::exp((s_model * s_model - s_experiment * s_experiment) / 2),
+              .005);
   EXPECT_EQ(found[0].left_out, 0U);
 }
 

@@ -5,7 +5,10 @@ Usage: command_test.py BEDSCOPE [unittest arguments]. Exit code 77: numpy or Pil
 """
 import math
 import os
+import pathlib
+import resource
 import shutil
+import stat
 import struct
 import subprocess
 import sys
@@ -66,11 +69,11 @@ class Command(unittest.TestCase):
     def at(self, name):
         return os.path.join(self.folder, name)
 
-    def run_it(self, text, *more):
+    def run_it(self, text, *more, **how):
         with open(self.at("fig.toml"), "w") as file:
             file.write(text)
         return subprocess.run([PROGRAM, "digitise", self.at("fig.toml"), "-o", self.at("out.csv"), *more],
-                              capture_output=True, text=True, timeout=120)
+                              capture_output=True, text=True, timeout=120, **how)
 
     def rows(self, name="out.csv"):
         with open(self.at(name)) as file:
@@ -216,6 +219,34 @@ class Command(unittest.TestCase):
         chunk = struct.pack(">I", 13) + b"IHDR" + header + struct.pack(">I", zlib.crc32(b"IHDR" + header))
         bad(whole[:8] + chunk + whole[33:60] + b"IEND", "cannot hold")
         bad(whole[:60] + bytes(200) + whole[260:], "damaged")
+
+    def test_a_write_that_fails_leaves_all_files_as_they_were(self):
+        draw(self.at("second.png"), points=[(0.3, 0.3), (0.6, 0.4)])
+        text = 'image = ["fig.png", "second.png"]\n' + X + Y + SERIES
+        self.assertEqual(self.run_it(text).returncode, 0)
+
+        def files():
+            return {path.name: path.read_bytes() for path in pathlib.Path(self.at("out.csv")).iterdir()}
+
+        before = files()
+        for size in [0, *(len(content) - 1 for content in before.values())]:
+            run = self.run_it(text.replace('name = "a"', 'name = "b"'),
+                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size)))
+            self.assertEqual((run.returncode, run.stderr.count("\n")), (2, 1), run.stderr)
+            self.assertTrue(files() == before, size)
+
+    def test_folders_pipes_and_devices_are_not_replaced(self):
+        text = 'image = "fig.png"\n' + X + Y + SERIES
+        os.mkdir(self.at("fig.digitised.png"))
+        run = self.run_it(text)
+        self.assertEqual((run.returncode, run.stderr.count("\n")), (2, 1), run.stderr)
+        self.assertFalse(os.path.exists(self.at("out.csv")))
+        os.rmdir(self.at("fig.digitised.png"))
+        os.mkfifo(self.at("out.csv"))
+        run = self.run_it(text)
+        self.assertEqual((run.returncode, run.stderr.count("\n")), (2, 1), run.stderr)
+        self.assertTrue(stat.S_ISFIFO(os.stat(self.at("out.csv")).st_mode))
+        self.assertFalse(os.path.exists(self.at("fig.digitised.png")))
 
     def test_same_result_every_time(self):
         text = 'image = "fig.png"\n' + X + Y + SERIES

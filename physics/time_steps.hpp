@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Times that the steps of a coupled simulation must stay below.
+#pragma once
+
+#include "physics/phases.hpp"
+
+namespace bedscope::physics {
+
+/// Time in which a Rayleigh wave crosses a sphere [s]; steps of a fifth of it are usual.
+///
+///   t_R = pi R sqrt(rho_s / G) / (0.1631 nu + 0.8766),  G = E / (2 (1 + nu))
+///
+/// Source: Thornton and Randall, Micromechanics of Granular Materials (1988); Li, Xu and Thornton,
+/// Powder Technol. 160 (2005) 219.
+double rayleigh_time(const Sphere& sphere, double young, double poisson);
+
+/// Time in which the drag brings the gas of a volume to the particles' velocity: eps rho_g / beta
+/// [s]. With the drag taken explicitly a step above twice this time grows without limit.
+/// momentum_exchange beta in kg/m3/s.
+double gas_relaxation_time(double voidage, double gas_density, double momentum_exchange);
+
+/// Time in which it brings the particles to the gas' velocity: (1 - eps) rho_s / beta [s].
+double solids_relaxation_time(double voidage, double particle_density, double momentum_exchange);
+
+/// Time in which the gas of a volume takes the particles' temperature: eps rho_g C_pg / (h a_s)
+/// [s]. gas_heat_capacity rho_g C_pg in J/m3/K, exchange h a_s in W/m3/K.
+double gas_thermal_time(double voidage, double gas_heat_capacity, double heat_exchange);
+
+/// u dt / dx.
+double courant(double velocity, double step, double cell);
+
+}  // namespace bedscope::physics

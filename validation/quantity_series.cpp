@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Single values, series in time and distributions of a run.
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "analysis/bubbles.hpp"
+#include "analysis/fluctuations.hpp"
+#include "analysis/statistics.hpp"
+#include "analysis/time_window.hpp"
+#include "readers/error.hpp"
+#include "validation/quantity_parts.hpp"
+
+namespace bedscope::validation {
+namespace {
+
+using analysis::Estimate;
+using analysis::RunResult;
+using analysis::Signal;
+
+constexpr int distribution_bins = 20;
+
+Sampled single(const Estimate& estimate, Statistic statistic = Statistic::mean) {
+  Sampled sampled{.at = {0}, .value = {estimate.value}, .is_scalar = true, .statistic = statistic};
+  sampled.error_known = std::isfinite(estimate.ci95);
+  sampled.u = {sampled.error_known ? estimate.ci95 / coverage_factor : 0};
+  return sampled;
+}
+
+bool in_window(const RunResult& run, double time) {
+  return run.window.snapshots == 0 || !std::isfinite(time) ||
+         (time >= run.window.from && time <= run.window.to);
+}
+
+/// A member of the rows that are wanted, against time; rows without a value are left out.
+template <class Row, class Value, class Wanted>
+Signal series(const std::vector<Row>& rows, Value Row::*value, Wanted wanted) {
+  Signal signal;
+  for (const Row& row : rows) {
+    const auto number = static_cast<double>(row.*value);
+    if (!wanted(row) || !std::isfinite(number)) continue;
+    signal.times.push_back(row.time);
+    signal.values.push_back(number);
+  }
+  return signal;
+}
+
+bool ascending(const std::vector<double>& times) {
+  return std::adjacent_find(times.begin(), times.end(),
+                            [](double a, double b) { return !(a < b); }) == times.end();
+}
+
+Estimate mean_of(const Signal& signal) {
+  const auto weights = ascending(signal.times) ? analysis::time_weights(signal.times)
+                                               : std::vector<double>(signal.times.size(), 1);
+  return analysis::estimate_mean(signal.values, weights).estimate();
+}
+
+/// Over the window, unless the analysis of dumps already knows it.
+template <class Row, class Value>
+Sampled window_mean(const RunResult& run, const Estimate& known, const std::vector<Row>& rows,
+                    Value Row::*value) {
+  if (std::isfinite(known.value)) return single(known);
+  return single(
+      mean_of(series(rows, value, [&](const Row& row) { return in_window(run, row.time); })));
+}
+
+/// The same of rows that have a species.
+template <class Row>
+Sampled species_mean(const RunResult& run, const Place& place, const Estimate& known,
+                     const std::vector<Row>& rows, double Row::*value) {
+  if (place.species == "all" && std::isfinite(known.value)) return single(known);
+  return single(mean_of(series(rows, value, [&](const Row& row) {
+    return row.type == place.species && in_window(run, row.time);
+  })));
+}
+
+/// A series as it is: each instant one value of one realisation, which has no error of a mean.
+Sampled history(const Signal& signal) {
+  Sampled sampled{.x = {"time", "s"}, .error_known = false};
+  sampled.at = signal.times;
+  sampled.value = signal.values;
+  sampled.u.assign(signal.values.size(), 0);
+  if (!ascending(signal.times)) return Sampled{};  // times that are not known
+  return sampled;
+}
+
+Sampled fluctuation(const Signal& signal, Statistic statistic) {
+  std::vector<std::string> problems;
+  if (signal.values.empty() || !ascending(signal.times)) return {};
+  const auto found = analysis::fluctuation_of(signal, 0, problems);
+  return single(statistic == Statistic::deviation ? found.deviation : found.dominant, statistic);
+}
+
+/// A property of clusters averaged over them; each snapshot's clusters count as one sample, so that
+/// the interval takes their correlation in time into account.
+Estimate cluster_mean(const RunResult& run, double analysis::Cluster::*property) {
+  std::vector<double> sum(run.occurrence.size()), count(run.occurrence.size());
+  for (const auto& cluster : run.clusters) {
+    if (cluster.snapshot >= sum.size() || !std::isfinite(cluster.*property)) continue;
+    sum[cluster.snapshot] += cluster.*property;
+    count[cluster.snapshot] += 1;
+  }
+  std::vector<double> numerator, denominator;
+  for (std::size_t i = 0; i < sum.size(); ++i) {
+    if (!in_window(run, run.occurrence[i].time)) continue;
+    numerator.push_back(sum[i]);
+    denominator.push_back(count[i]);
+  }
+  const std::vector<double> weights(numerator.size(), 1);
+  return analysis::estimate_ratio(numerator, denominator, weights);
+}
+
+/// Of each bubble once in each snapshot; the interval takes the snapshots as samples.
+template <class Property>
+Estimate bubble_mean(const analysis::Bubbles& bubbles, Property property) {
+  std::vector<double> times, sum, count;
+  for (const auto& bubble : bubbles.bubbles) {
+    if (times.empty() || bubble.time != times.back()) {
+      times.push_back(bubble.time);
+      sum.push_back(0);
+      count.push_back(0);
+    }
+    const double value = property(bubble);
+    if (!std::isfinite(value)) continue;
+    sum.back() += value;
+    count.back() += 1;
+  }
+  return analysis::estimate_ratio(sum, count, std::vector<double>(sum.size(), 1));
+}
+
+constexpr auto every = [](const auto&) { return true; };
+
+Signal surface_of(const RunResult& run) {
+  auto signal = series(run.bed.samples, &analysis::BedHeightSample::surface,
+                       [&](const auto& row) { return in_window(run, row.time); });
+  signal.name = "bed surface";
+  signal.unit = "m";
+  return signal;
+}
+
+Signal drop_of(const RunResult& run) {
+  auto signal = series(run.gas.pressure, &analysis::PressureSample::drop,
+                       [&](const auto& row) { return in_window(run, row.time); });
+  signal.name = "pressure drop";
+  signal.unit = "Pa";
+  return signal;
+}
+
+/// The probe of at = { probe = n }, from 1; the only one where left out.
+const analysis::Fluctuation& probe_of(const RunResult& run, const Place& place) {
+  std::vector<const analysis::Fluctuation*> probes;
+  for (const auto& one : run.fluctuations)
+    if (one.signal.starts_with("p ")) probes.push_back(&one);
+  if (probes.empty())
+    throw InputError("run \"{}\": it has no probes: expected the key probes in the run", run.label);
+  const auto wanted = place.at.find("probe");
+  if (wanted == place.at.end() && probes.size() > 1)
+    throw InputError("run \"{}\": expected at = {{ probe = 1 ... {} }}", run.label, probes.size());
+  const double number = wanted == place.at.end() ? 1 : wanted->second;
+  for (std::size_t k = 0; k < probes.size(); ++k)
+    if (number == static_cast<double>(k + 1)) return *probes[k];
+  throw InputError("run \"{}\": expected a probe from 1 to {}, found {}", run.label, probes.size(),
+                   number);
+}
+
+}  // namespace
+
+Sampled occurrence(const RunResult& run, const Place&) {
+  return window_mean(run, run.mean_occurrence, run.occurrence,
+                     &analysis::OccurrenceSample::clusters);
+}
+Sampled cluster_holdup(const RunResult& run, const Place&) {
+  return single(cluster_mean(run, &analysis::Cluster::holdup));
+}
+Sampled cluster_velocity(const RunResult& run, const Place&) {
+  return single(cluster_mean(run, &analysis::Cluster::velocity_z));
+}
+Sampled mean_holdup(const RunResult& run, const Place& place) {
+  return species_mean(run, place, run.mean_holdup, run.inventory,
+                      &analysis::InventorySample::holdup);
+}
+Sampled inventory(const RunResult& run, const Place& place) {
+  return species_mean(run, place, run.inventory_mass, run.inventory,
+                      &analysis::InventorySample::solids_mass);
+}
+Sampled mean_temperature(const RunResult& run, const Place& place) {
+  return species_mean(run, place, {}, run.temperature, &analysis::TemperatureSample::mean);
+}
+Sampled temperature_spread(const RunResult& run, const Place& place) {
+  return species_mean(run, place, {}, run.temperature, &analysis::TemperatureSample::std);
+}
+Sampled pressure_drop(const RunResult& run, const Place&) {
+  return window_mean(run, run.gas.pressure_drop, run.gas.pressure, &analysis::PressureSample::drop);
+}
+Sampled bed_voidage(const RunResult& run, const Place&) { return single(run.bed_voidage); }
+Sampled bed_height(const RunResult& run, const Place&) {
+  return window_mean(run, run.bed.surface, run.bed.samples, &analysis::BedHeightSample::surface);
+}
+
+Sampled bubble_number(const RunResult& run, const Place&) {
+  return single(run.bubbles ? run.bubbles->number : Estimate{});
+}
+Sampled bubble_diameter(const RunResult& run, const Place&) {
+  if (!run.bubbles || std::isfinite(run.bubbles->diameter.value))
+    return single(run.bubbles ? run.bubbles->diameter : Estimate{});
+  return single(bubble_mean(*run.bubbles, analysis::equivalent_diameter));
+}
+Sampled bubble_velocity(const RunResult& run, const Place&) {
+  if (!run.bubbles || std::isfinite(run.bubbles->velocity.value))
+    return single(run.bubbles ? run.bubbles->velocity : Estimate{});
+  return single(
+      bubble_mean(*run.bubbles, [](const analysis::Cluster& b) { return b.track_velocity_z; }));
+}
+
+Sampled bed_height_deviation(const RunResult& run, const Place&) {
+  return fluctuation(surface_of(run), Statistic::deviation);
+}
+Sampled bed_height_frequency(const RunResult& run, const Place&) {
+  return fluctuation(surface_of(run), Statistic::frequency);
+}
+Sampled pressure_drop_deviation(const RunResult& run, const Place&) {
+  return fluctuation(drop_of(run), Statistic::deviation);
+}
+Sampled pressure_drop_frequency(const RunResult& run, const Place&) {
+  return fluctuation(drop_of(run), Statistic::frequency);
+}
+Sampled probe_pressure_deviation(const RunResult& run, const Place& place) {
+  return single(probe_of(run, place).deviation, Statistic::deviation);
+}
+Sampled probe_pressure_frequency(const RunResult& run, const Place& place) {
+  return single(probe_of(run, place).dominant, Statistic::frequency);
+}
+
+Sampled bed_height_history(const RunResult& run, const Place&) {
+  return history(series(run.bed.samples, &analysis::BedHeightSample::surface, every));
+}
+Sampled pressure_drop_history(const RunResult& run, const Place&) {
+  return history(series(run.gas.pressure, &analysis::PressureSample::drop, every));
+}
+Sampled inventory_history(const RunResult& run, const Place& place) {
+  return history(series(run.inventory, &analysis::InventorySample::solids_mass,
+                        [&](const auto& row) { return row.type == place.species; }));
+}
+Sampled temperature_history(const RunResult& run, const Place& place) {
+  return history(series(run.temperature, &analysis::TemperatureSample::mean,
+                        [&](const auto& row) { return row.type == place.species; }));
+}
+
+/// Probability density of the clusters' lateral places in the domain, 0 to 1, with the errors of
+/// counts (Poisson).
+Sampled cluster_position(const RunResult& run, const Place&) {
+  Sampled sampled{.x = {"x over width", "-"}, .is_distribution = true};
+  std::vector<double> counts(distribution_bins);
+  const double low = run.grid.min[0], width = run.grid.max[0] - low;
+  for (const auto& cluster : run.clusters) {
+    const double share = (cluster.centre.x - low) / width;
+    if (!(share >= 0 && share <= 1)) continue;
+    counts[static_cast<std::size_t>(
+        std::min<double>(share * distribution_bins, distribution_bins - 1))] += 1;
+  }
+  const double all = std::accumulate(counts.begin(), counts.end(), 0.);
+  if (all == 0) return sampled;
+  for (int k = 0; k < distribution_bins; ++k) {
+    sampled.at.push_back((k + .5) / distribution_bins);
+    sampled.value.push_back(counts[k] / all * distribution_bins);
+    sampled.u.push_back(std::sqrt(counts[k] + 1) / all * distribution_bins);
+  }
+  return sampled;
+}
+
+Sampled temperature_pdf(const RunResult& run, const Place& place) {
+  const auto& species = species_of(run, place);
+  std::vector<double> at;
+  std::vector<Estimate> density;
+  for (std::size_t k = 0; k < species.temperature_pdf.size(); ++k) {
+    at.push_back((static_cast<double>(k) + .5) /
+                 static_cast<double>(species.temperature_pdf.size()));
+    density.push_back({species.temperature_pdf[k], k < species.temperature_pdf_ci95.size()
+                                                       ? species.temperature_pdf_ci95[k]
+                                                       : std::nan("")});
+  }
+  auto sampled = along("bin_centre", "-", at, density);
+  sampled.is_distribution = true;
+  return sampled;
+}
+
+}  // namespace bedscope::validation

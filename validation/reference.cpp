@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "validation/reference.hpp"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "analysis/fluctuations.hpp"
+#include "analysis/tables.hpp"
+#include "readers/error.hpp"
+#include "validation/theory.hpp"
+
+namespace bedscope::validation {
+
+using analysis::RunResult;
+
+const RunResult& run_of(std::span<const RunResult> runs, const std::string& label) {
+  for (const auto& run : runs)
+    if (run.label == label) return run;
+  std::string labels;
+  for (const auto& run : runs) labels += (labels.empty() ? "\"" : ", \"") + run.label + "\"";
+  throw InputError("no run \"{}\", there are {}", label, labels);
+}
+
+namespace {
+
+constexpr double coverage_factor = 1.96;
+
+Curve constant(const Check& check, const Sampled& result) {
+  Curve curve{.name = fmt::format("{:.6g}", *check.number), .x = result.x, .y = result.y};
+  for (const double x : result.at) curve.points.push_back({x, *check.number, 0, check.number_u});
+  if (check.number_u == 0)
+    curve.assumptions.emplace_back(
+        "the number in the study is taken as exact (no uncertainty key)");
+  return curve;
+}
+
+std::filesystem::path baseline_folder(const std::string& path, const std::string& study) {
+  namespace fs = std::filesystem;
+  const fs::path file =
+      fs::path(path).is_absolute() ? fs::path(path) : fs::path(study).parent_path() / path;
+  if (!fs::exists(file))
+    throw InputError("baseline:{}: no such file, expected a summary.json or its folder", path);
+  return fs::is_directory(file) ? file : file.parent_path();
+}
+
+/// An earlier result: the tables that lie beside its summary.json.
+Curve baseline(const std::string& path, const Check& check, const std::string& label,
+               const std::string& study) {
+  const auto folder = baseline_folder(path, study);
+  const auto earlier = analysis::read_tables(folder, label);
+  return as_curve(sample(earlier, check.place), "baseline " + path);
+}
+
+/// The mean of all other runs at the abscissae of this one: how far a family of runs falls
+/// together.
+Curve mean_of_others(const Check& check, const RunResult& run, const Sampled& result,
+                     std::span<const RunResult> runs) {
+  Curve mean{.name = "mean of the other runs", .x = result.x, .y = result.y};
+  std::vector<Comparison> others;
+  const auto here = as_curve(result, run.label);
+  for (const auto& other : runs)
+    if (other.label != run.label) others.push_back(compare(sample(other, check.place), here));
+  if (others.empty()) throw InputError("run:others: expected a second run in the study");
+  for (const double x : result.at) {
+    double sum = 0, u = 0, count = 0;
+    for (const auto& other : others)
+      for (const auto& point : other.points)
+        if (point.x == x) {
+          sum += point.result;
+          u += point.u_result * point.u_result + point.u_interpolation * point.u_interpolation;
+          count += 1;
+        }
+    if (count == static_cast<double>(others.size()))
+      mean.points.push_back({x, sum / count, 0, std::sqrt(u) / count});
+  }
+  if (mean.points.empty()) throw InputError("run:others: the runs have no abscissa in common");
+  return mean;
+}
+
+/// A series in time against a single value of a run: the same statistic of it.
+Curve reduced(Curve curve, const Sampled& result) {
+  if (!result.is_scalar || curve.points.size() < 2) return curve;
+  if (!curve.x.is_time())
+    throw InputError("{}: {} points along {}: expected one, {} is a single value", curve.name,
+                     curve.points.size(), curve.x.text(), result.y.name);
+  analysis::Signal signal{curve.name, curve.y.unit, {}, {}};
+  double u = 0;  // errors of reading a plot may well be common to all points
+  for (const auto& point : curve.points) {
+    if (!signal.times.empty() && point.x == signal.times.back()) continue;
+    signal.times.push_back(point.x);
+    signal.values.push_back(point.y);
+    u = std::max(u, point.u_y);
+  }
+  const auto found = analysis::fluctuation_of(signal, 0, curve.assumptions);
+  analysis::Estimate estimate = found.mean;
+  const char* words = "mean";
+  if (result.statistic == Statistic::deviation) {
+    estimate = found.deviation;
+    words = "standard deviation";
+    u = 0;  // not moved by a common error
+  } else if (result.statistic == Statistic::frequency) {
+    estimate = found.dominant;
+    words = "dominant frequency";
+    curve.y = {"dominant frequency", "Hz"};
+    u = 0;
+  }
+  if (!std::isfinite(estimate.value))
+    throw InputError("{}: {} points are too few for a {}", curve.name, curve.points.size(), words);
+  if (!std::isfinite(estimate.ci95)) estimate.ci95 = 0;
+  curve.assumptions.push_back(
+      fmt::format("{}: its {} from {:.4g} to {:.4g} s, with the error of a "
+                  "{:.3g} s record",
+                  curve.name, words, signal.times.front(), signal.times.back(),
+                  signal.times.back() - signal.times.front()));
+  curve.points = {{0, estimate.value, 0, std::hypot(estimate.ci95 / coverage_factor, u)}};
+  return curve;
+}
+
+}  // namespace
+
+Curve reference_of(const Check& check, const RunResult& run, const Sampled& result,
+                   std::span<const RunResult> runs, const Curves& curves,
+                   const std::string& study) {
+  if (check.number) return constant(check, result);
+  const auto after = [&](std::string_view prefix) { return check.against.substr(prefix.size()); };
+  if (check.against.starts_with("theory:"))
+    return theory_curve(after("theory:"), check.with, run, result);
+  if (check.against == "run:others") return mean_of_others(check, run, result, runs);
+  if (check.against.starts_with("run:")) {
+    const auto label = after("run:");
+    return as_curve(sample(run_of(runs, label), check.place), "run " + label);
+  }
+  if (check.against.starts_with("baseline:"))
+    return baseline(after("baseline:"), check, run.label, study);
+  return reduced(curves.curve(check.against, check.place.at), result);
+}
+
+void require_reference(const Check& check, std::span<const std::string> labels,
+                       const Curves& curves, const std::string& study) {
+  const auto after = [&](std::string_view prefix) { return check.against.substr(prefix.size()); };
+  const auto require_run = [&](const std::string& label) {
+    if (std::find(labels.begin(), labels.end(), label) == labels.end())
+      throw InputError("no run \"{}\", there are \"{}\"", label, fmt::join(labels, "\", \""));
+  };
+  try {
+    if (!check.run.empty()) require_run(check.run);
+    if (check.against.empty()) return;
+    if (check.against.starts_with("theory:"))
+      require_theory(after("theory:"), check.with);
+    else if (check.against.starts_with("baseline:"))
+      baseline_folder(after("baseline:"), study);
+    else if (check.against.starts_with("run:") && check.against != "run:others")
+      require_run(after("run:"));
+    else if (!check.against.starts_with("run:"))
+      curves.curve(check.against, check.place.at);
+  } catch (const MissingCurve&) {
+    return;
+  } catch (const InputError& error) {
+    throw InputError("{}: line {}: check: {}", study, check.line, error.what());
+  }
+}
+
+}  // namespace bedscope::validation
