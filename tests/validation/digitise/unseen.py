@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """How well plots are read that the digitiser was not written against (unseen_plots.py).
 
-    unseen.py BEDSCOPE FIRST-LAST [FOLDER]
+    unseen.py BEDSCOPE SEEDS [FOLDER]      # seeds as 200-203,208
 
 Draws and digitises one plot a seed; prints each series that is wrong, a table by style and the
 totals. A series is wrong if a marker is missed or invented, the 95th percentile is beyond 0.4 % of the
@@ -34,13 +34,15 @@ def wrong(r):
 
 
 def main():
-    program, (first, last) = os.path.abspath(sys.argv[1]), map(int, sys.argv[2].split("-"))
+    program = os.path.abspath(sys.argv[1])
+    spans = [part.split("-") for part in sys.argv[2].split(",")]
+    seeds = [seed for span in spans for seed in range(int(span[0]), int(span[-1]) + 1)]
     kept = sys.argv[3] if len(sys.argv) > 3 else None
     results, refused, table = [], 0, collections.defaultdict(list)
     with tempfile.TemporaryDirectory() as temporary:
         folder = Path(kept or temporary)
         folder.mkdir(parents=True, exist_ok=True)
-        truths = [unseen_plots.make(seed, folder) for seed in range(first, last + 1)]
+        truths = [unseen_plots.make(seed, folder) for seed in seeds]
         pool = ThreadPoolExecutor(os.cpu_count())
         for truth, (found, text, seconds) in zip(truths, pool.map(lambda t: sweep.digitise(program, t), truths)):
             if found is None:
@@ -60,7 +62,7 @@ def main():
         numbers = [sum(r[k] for r in of) for k in ("wanted", "missed", "invented")]
         print(f"{group:24} {len(all_of):6} {sum(bool(w) for w, _ in all_of):6} {numbers[0]:7} {numbers[1]:6} {numbers[2]:8}")
     of_all = [q for group in table if " of " in group for q in table[group]]
-    print(f"\n{last - first + 1} plots, {refused} refused; {sum(bool(w) for w, _ in of_all)} of {len(of_all)} series wrong")
+    print(f"\n{len(seeds)} plots, {refused} refused; {sum(bool(w) for w, _ in of_all)} of {len(of_all)} series wrong")
     for kind, numbers in measure.summary(results).items():
         print(f"{kind}:", ", ".join(f"{k} {v:.4g}" for k, v in numbers.items()))
 
