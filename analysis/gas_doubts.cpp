@@ -13,8 +13,11 @@ namespace {
 
 /// A solver's own mapping of the particles keeps their volume to this [-].
 constexpr double fair_ratio = 0.01;
-/// Fields that differ by more than this share of the holdup's own spread do not show the same bed.
-constexpr double fair_difference = 0.5;
+/// Fields that differ by more than this share of the holdup's own spread do not show the same bed;
+/// from the smaller one on it is worth a look whether a shift makes them fit.
+constexpr double fair_difference = 0.5, suspicious_difference = 0.2;
+/// One run ends at one time on both sides, to this share of the longer one [-].
+constexpr double fair_end = 0.2;
 /// A shift is believed where it leaves less than this share of the squared difference.
 constexpr double better = 0.6;
 constexpr std::ptrdiff_t most_shift = 10;  // times of the gas
@@ -67,6 +70,18 @@ bool GasRun::tell_ratio(RunResult& result) const {
   return !changes;
 }
 
+void GasRun::tell_clock(RunResult& result) const {
+  const auto& snapshots = run_->times;
+  if (checks_.empty() || times_.size() < 2 || snapshots.size() < 2) return;
+  const double longer =
+      std::max(times_.back() - times_.front(), snapshots.back() - snapshots.front());
+  if (std::abs(times_.back() - snapshots.back()) > fair_end * longer)
+    result.problems.push_back(
+        fmt::format("gas: its times run from {:.6g} to {:.6g} s, the snapshots from {:.6g} to "
+                    "{:.6g} s: time_step or step_zero?",
+                    times_.front(), times_.back(), snapshots.front(), snapshots.back()));
+}
+
 void GasRun::tell_shift(const readers::Series& particles, RunResult& result) const {
   const auto& checks = result.gas.checks;
   double rms = 0, spread = 0;
@@ -74,7 +89,7 @@ void GasRun::tell_shift(const readers::Series& particles, RunResult& result) con
     rms += check.rms_difference;
     spread += check.spread;
   }
-  if (checks.empty() || rms <= fair_difference * spread) return;
+  if (checks.empty() || rms <= suspicious_difference * spread) return;
   // Snapshots around which all shifted times are there, so that all shifts see the same ones.
   const auto furthest = std::clamp<std::ptrdiff_t>(std::ssize(times_) / 3, 1, most_shift);
   std::vector<std::size_t> snapshots;
@@ -110,7 +125,7 @@ void GasRun::tell_shift(const readers::Series& particles, RunResult& result) con
         std::abs(shifts[best]), shifts[best] > 0 ? "later" : "earlier",
         std::sqrt(squares[best] / static_cast<double>(count)),
         std::sqrt(squares[middle] / static_cast<double>(count))));
-  else
+  else if (rms > fair_difference * spread)
     result.problems.push_back(
         fmt::format("gas: voidage and particles differ by {:.0f} % of the holdup's own spread: do "
                     "they show the same run, scale and axes?",

@@ -18,7 +18,9 @@ double GasMapping::snapped(const Grid& grid, int axis, double x) const {
   const double place = std::round((x - grid.min[axis]) / width);
   if (!(place >= 0 && place <= grid.cells[axis])) return x;
   const double face = grid.face(axis, static_cast<int>(place));
-  return std::abs(x - face) <= std::max(same_plane * width, std::min(resolution_, 1e-3 * width)) ? face : x;
+  return std::abs(x - face) <= std::max(same_plane * width, std::min(resolution_, 1e-3 * width))
+             ? face
+             : x;
 }
 
 GasMapping::GasMapping(const readers::Mesh& mesh, const Grid& grid, const std::array<int, 3>& axes)

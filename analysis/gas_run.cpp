@@ -204,6 +204,7 @@ void GasRun::finish(const readers::Series& particles, RunResult& result) const {
   checks_of(result);
   pressures_of(result);
   tell_cover(result);
+  tell_clock(result);
   if (!tell_ratio(result)) tell_shift(particles, result);
   for (const auto place : places_)
     for (const auto& field :

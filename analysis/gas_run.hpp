@@ -54,6 +54,7 @@ class GasRun {
   void checks_of(RunResult& result) const;
   void pressures_of(RunResult& result) const;
   void tell_cover(RunResult& result) const;
+  void tell_clock(RunResult& result) const;
   bool tell_ratio(RunResult& result) const;
   void tell_shift(const readers::Series& particles, RunResult& result) const;
 

@@ -40,7 +40,7 @@ struct SpeciesResult {
   std::vector<Estimate> axial_temperature;   ///< of the solids, <v T>/<v> by layer [K]; or empty
   std::vector<double> temperature_pdf;       ///< [-], per bin; empty without a temperature range
   std::vector<double> temperature_pdf_ci95;  ///< half-widths; empty where not known
-  double temperature_outside = 0;       ///< share of particles outside that range
+  double temperature_outside = 0;            ///< share of particles outside that range
 };
 
 /// A row for each snapshot of the dump, inside and outside the window.

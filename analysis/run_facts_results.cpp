@@ -20,16 +20,6 @@ class ResultsReader {
       missing("/runs/1");
   }
 
-  std::vector<double> attribute(const char* object, const char* name) {
-    if (H5Aexists_by_name(file_, object, name, H5P_DEFAULT) <= 0) missing(name);
-    const Hdf5Handle attribute(H5Aopen_by_name(file_, object, name, H5P_DEFAULT, H5P_DEFAULT),
-                               H5Aclose);
-    const Hdf5Handle space(H5Aget_space(attribute), H5Sclose);
-    std::vector<double> values(static_cast<std::size_t>(few(H5Sget_simple_extent_npoints(space))));
-    if (H5Aread(attribute, H5T_NATIVE_DOUBLE, values.data()) < 0) missing(name);
-    return values;
-  }
-
   std::vector<double> numbers(const char* name) {
     const auto data = open(name);
     const Hdf5Handle space(H5Dget_space(data), H5Sclose);
@@ -79,8 +69,7 @@ class ResultsReader {
 RunFacts facts_of_results(const std::filesystem::path& path) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are told in one line, by us
   ResultsReader file(path);
-  const auto low = file.attribute("/runs/1/grid", "min"),
-             high = file.attribute("/runs/1/grid", "max");
+  const auto low = file.numbers("/runs/1/grid/min"), high = file.numbers("/runs/1/grid/max");
   if (low.size() != 3 || high.size() != 3)
     throw FormatError("{}: expected a grid of three axes", path.string());
   RunFacts facts;

@@ -313,8 +313,8 @@ void RunSums::means_of(const Window& window, RunResult& result) const {
     const double size = series->empty() ? 0 : std::abs(series->front());
     if (drift.significance > significant_drift && std::abs(drift.change) > worth_a_word * size)
       result.problems.push_back(fmt::format(
-          "not steady: the {} drifts by {:.2g} {} over the window ({:.2g} standard errors)", what,
-          drift.change, unit, drift.significance));
+          "the {} drifts by {:.2g} {} over the window ({:.2g} standard errors): is it steady?",
+          what, drift.change, unit, drift.significance));
   }
   result.outside_fraction = volume > 0 ? std::max(0., outside / volume) : 0;
   const auto [least, most] = std::minmax_element(volumes.begin(), volumes.end());

@@ -178,6 +178,18 @@ std::optional<double> one_density(const readers::LiggghtsLog& log) {
   return log.density.begin()->second;
 }
 
+/// A density of the study that is not the log's: one of them is wrong, or the run was scaled.
+void compare_density(const readers::LiggghtsLog& log, RunSetup& setup) {
+  constexpr double fair = 0.01;
+  for (const auto& [type, logged] : log.density) {
+    const auto own = setup.density.of_type.find(type);
+    const auto told = own != setup.density.of_type.end() ? own->second : setup.density.all;
+    if (told && std::abs(*told - logged) > fair * logged)
+      setup.problems.push_back(
+          fmt::format("density of type {} is {} kg/m3, {} says {}", type, *told, log.path, logged));
+  }
+}
+
 void set_density(const readers::Series& series, const readers::LiggghtsLog& log, RunSetup& setup) {
   using From = RunSetup::Density;
   const auto& names = series.columns();
@@ -188,6 +200,7 @@ void set_density(const readers::Series& series, const readers::LiggghtsLog& log,
   setup.density = setup.settings.density;
   if (setup.density.given()) {
     setup.density_from = From::by_type;
+    compare_density(log, setup);
   } else if (in_dumps(series, "density")) {
     setup.density_from = From::density_column;
   } else if (in_dumps(series, "mass") && !bodies) {

@@ -75,7 +75,7 @@ struct Drift {
 };
 
 /// Of a constant series, one with a value that is not finite, or fewer than 20 samples: 0, 0.
-/// Of a steady series in 1.2 % of all cases beyond significant_drift.
+/// Of white noise in 1.2 % of all cases beyond significant_drift.
 Drift drift_of(std::span<const double> series);
 inline constexpr double significant_drift = 2.5;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -30,6 +31,7 @@ std::vector<double> times_of(const RunResult& run) {
   take(run.temperature, [&](const auto& row) { return row.type == run.temperature.front().type; });
   take(run.bed.samples, any);
   take(run.gas.pressure, any);
+  std::sort(times.begin(), times.end());
   return times;
 }
 
@@ -61,7 +63,11 @@ Estimate mean_within(const std::vector<Row>& rows, double Row::*member, const Wi
     times.push_back(row.time);
     values.push_back(row.*member);
   }
-  return estimate_mean(values, time_weights(times)).estimate();
+  // Tables of another program may have their rows in any order.
+  const bool ordered =
+      std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) == times.end();
+  return estimate_mean(values, ordered ? time_weights(times) : std::vector<double>(times.size(), 1))
+      .estimate();
 }
 
 }  // namespace

@@ -100,8 +100,7 @@ void write_temperature(std::span<const RunResult> runs, const std::filesystem::p
 }
 
 void write_temperature_pdf(std::span<const RunResult> runs, const std::filesystem::path& path) {
-  CsvWriter table(path,
-                  "run,type,bin_centre [-],probability_density [-]");
+  CsvWriter table(path, "run,type,bin_centre [-],probability_density [-]");
   for (const RunResult& run : runs)
     for (const SpeciesResult& species : run.species) {
       const auto bins = static_cast<double>(species.temperature_pdf.size());

@@ -177,8 +177,8 @@ void require_one_form(const std::string& where, const Groups& groups) {
           first_key.second, first.form->name, key.second, group.form->name);
 }
 
-/// A stranger that bears the name of a dump: behind the last one it is not finished yet, before it
-/// it would leave a gap in the series.
+/// A stranger that bears the name of a dump: of the last step or behind, it is not finished yet;
+/// before it would leave a gap in the series.
 void judge(const Stranger& stranger, const Groups& groups, std::int64_t last_step,
            DumpFolder& found) {
   const auto like = std::find_if(groups.begin(), groups.end(), [&](const auto& item) {
@@ -188,8 +188,8 @@ void judge(const Stranger& stranger, const Groups& groups, std::int64_t last_ste
     found.left_out.push_back(stranger.what);
     return;
   }
-  if (step_in(stranger.name, like->second).value_or(last_step) <= last_step)
-    throw FormatError("{}", stranger.what);
+  const auto step = step_in(stranger.name, like->second);
+  if (!step || *step < last_step) throw FormatError("{}", stranger.what);
   found.unfinished.push_back(stranger.what);
 }
 
@@ -203,16 +203,21 @@ void take_indices(Sorted& sorted, Groups& groups, DumpFolder& found) {
       return broken;
     });
   std::set<std::string> taken;
+  std::vector<std::string> lost;  // what the names of pieces begin with, of an index that is broken
   for (auto& index : choose_indices(std::move(sorted.indices), found)) {
     taken.insert(index.content.named.begin(), index.content.named.end());
     for (auto& note : index.content.notes) found.notes.push_back(std::move(note));
-    if (index.content.error.empty())
+    if (index.content.error.empty()) {
       add_units(index, groups, sorted.strangers);
-    else
-      sorted.strangers.push_back({split_name(index.path), index.content.error});
+      continue;
+    }
+    sorted.strangers.push_back({split_name(index.path), index.content.error});
+    lost.push_back(fs::path(index.path).replace_extension().string() + "_");
   }
   const auto is_taken = [&](const auto& dump) {
-    return taken.contains(fs::path(dump.first).lexically_normal().string());
+    return taken.contains(fs::path(dump.first).lexically_normal().string()) ||
+           std::any_of(lost.begin(), lost.end(),
+                       [&](const auto& begin) { return dump.first.starts_with(begin); });
   };
   std::erase_if(sorted.dumps, is_taken);
 }

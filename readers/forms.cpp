@@ -34,6 +34,7 @@ constexpr std::array strangers{
     Stranger{"<html", "an HTML page, not particles"},
     Stranger{"LIGGGHTS (", "a LIGGGHTS log, not particles"},
     Stranger{"LAMMPS data file", "a LIGGGHTS data file (write_data), not a dump"},
+    Stranger{"# Probe ", "a table of OpenFOAM's probes: probes = ... of a [[run]]"},
     Stranger{"LAMMPS (", "a LAMMPS log, not particles"},
     Stranger{"LammpS RestartT", "a LAMMPS restart file, not a dump"},
     Stranger{"---\ncreator: LAMMPS", "a dump in YAML, a form not known; use dump custom"},
@@ -64,6 +65,8 @@ const Form& identify(const std::string& path, std::string_view head) {
     if (form->matches != nullptr && form->matches(head)) return *form;
   for (const auto& stranger : strangers)
     if (head.starts_with(stranger.begins)) throw FormatError("{}: {}", path, stranger.what);
+  if (head.find("FoamFile") != head.npos)
+    throw FormatError("{}: a file of an OpenFOAM case: name the case", path);
   if (is_xyz(head)) throw FormatError("{}: an xyz dump: it holds no radius; use dump custom", path);
   if (const auto type = xml_root_type(head); !type.empty())
     throw FormatError("{}: VTK XML of type {}, not particles", path, type);

@@ -7,6 +7,7 @@
 
 #include "readers/error.hpp"
 #include "readers/vtk_gas.hpp"
+#include "readers/vtk_gas_files.hpp"
 
 namespace bedscope::readers {
 
@@ -35,7 +36,7 @@ std::vector<std::string> missing_fields(const std::string& path,
 GasSeries GasSeries::open(const std::string& path, const GasOptions& options) {
   std::error_code error;
   if (std::filesystem::is_regular_file(path, error) ||
-      (!is_openfoam_case(path) && is_vtk_gas(path)))
+      (!is_openfoam_case(path) && !first_vtk_grid(path).empty()))  // a damaged one tells it
     return {path, open_vtk_gas(path, options)};
   return {path, std::make_shared<OpenFoamCase>(OpenFoamCase::open(path, options))};
 }

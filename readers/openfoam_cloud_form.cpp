@@ -77,6 +77,8 @@ std::string chosen_cloud(const OpenFoamCase& foam, const CloudName& name) {
   std::set<std::string> clouds;
   for (std::size_t t = 0; t < foam.times().size(); ++t)
     for (auto& cloud : foam.clouds_at(t)) clouds.insert(std::move(cloud));
+  if (clouds.empty() && foam.mesh().cells() == 0)
+    throw FormatError("{}: an OpenFOAM case without constant/polyMesh", name.root);
   if (clouds.empty())
     throw InputError("{}: an OpenFOAM case without a Lagrangian cloud, expected particles",
                      name.root);

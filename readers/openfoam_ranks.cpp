@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The meshes of the ranks, put together in the order of the whole case.
 #include <algorithm>
+#include <charconv>
+#include <string_view>
 
 #include "readers/openfoam_case_impl.hpp"
 
@@ -16,6 +18,23 @@ void add_patches(const std::vector<FoamPatch>& of_rank, std::vector<FoamPatch>& 
       all.push_back(patch);
     else
       same->faces += patch.faces;
+  }
+}
+
+// A patch procBoundary1to2 says that there is a processor 2. Where the last ones are missing and
+// the cells of the others have no gaps, nothing else does.
+void require_neighbours(const std::vector<FoamPatch>& of_rank, std::size_t ranks,
+                        const std::string& folder) {
+  for (const auto& patch : of_rank) {
+    if (!patch.type.starts_with("processor")) continue;
+    const std::string_view name = patch.name;
+    const auto to = name.find("to", std::string_view("procBoundary").size());
+    std::size_t neighbour = 0;
+    if (to != name.npos)
+      std::from_chars(name.data() + to + 2, name.data() + name.size(), neighbour);
+    if (neighbour >= ranks)
+      throw FormatError("{}: borders on processor {} (patch {}), found {} processors", folder,
+                        neighbour, patch.name, ranks);
   }
 }
 
@@ -118,6 +137,7 @@ std::shared_ptr<const RankedMesh> OpenFoamCase::Impl::read_mesh(std::size_t time
     for (std::size_t k = 0; k < folder.ranks; ++k) {
       const auto poly = read_poly_mesh(mesh_opener(folder, k, time));
       parts[folder.first_rank + k] = cell_geometry(poly);
+      if (folder.path != root) require_neighbours(poly.patches, ranks, folder.path);
       add_patches(poly.patches, patches);
     }
   }

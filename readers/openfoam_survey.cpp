@@ -83,13 +83,27 @@ class Surveyor {
   void add_cloud(std::size_t time, const std::string& name) {
     auto& cloud = clouds_[name];
     const auto columns = clouds_of_->cloud_columns(time, name);
-    if (columns.size() >= cloud.columns.size()) cloud.columns = columns;
-    for (auto& problem : clouds_of_->read_cloud(
-             time, name, {{"x"}, {"y"}, {"z"}, {"radius", false}, {"nParticle", false}}, snapshot_))
+    Request request{{"x"}, {"y"}, {"z"}, {"radius", false}, {"nParticle", false}};
+    for (const auto& column : columns) request.push_back({column});  // so that all files are read
+    for (auto& problem : clouds_of_->read_cloud(time, name, request, snapshot_))
       found_.problems.push_back(std::move(problem));
+    tell_lost_columns(time, cloud.columns, columns, name);
+    if (columns.size() >= cloud.columns.size()) cloud.columns = columns;
     for (std::size_t k = 0; k < 5; ++k)
       for (const double value : snapshot_.columns[k])
         (k < 3 ? cloud.centres[k] : k == 3 ? cloud.radius : cloud.particles).add(value);
+  }
+
+  // What a time before had and this one, with parcels, has not.
+  void tell_lost_columns(std::size_t time, const std::vector<std::string>& before,
+                         const std::vector<std::string>& here, const std::string& cloud) {
+    if (snapshot_.particles == 0) return;
+    std::string lost;
+    for (const auto& column : before)
+      if (std::find(here.begin(), here.end(), column) == here.end()) lost += " " + column;
+    if (!lost.empty())
+      found_.problems.push_back(fmt::format("{}: time {}: lacks{}, which earlier times have", cloud,
+                                            gas_.times()[time].name, lost));
   }
 
   const GasForm& gas_;

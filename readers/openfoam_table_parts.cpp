@@ -56,10 +56,10 @@ Tables find_tables(const std::string& folder) {
 void join(FoamTable& all, FoamTable&& later) {
   for (auto& text : later.problems) all.problems.push_back(std::move(text));
   all.files.push_back(later.files.front());
-  if (all.points.empty()) all.points = std::move(later.points);
   if (later.times.empty()) return;
   drop_from(all, later.times.front());
   if (all.times.empty()) {
+    all.points = std::move(later.points);
     all.times = std::move(later.times);
     all.columns = std::move(later.columns);
     return;
@@ -67,6 +67,13 @@ void join(FoamTable& all, FoamTable&& later) {
   const auto same = [](const FoamTable::Column& a, const FoamTable::Column& b) {
     return a.title == b.title && a.words.empty() == b.words.empty();
   };
+  const auto same_place = [](const FoamTable::Point& a, const FoamTable::Point& b) {
+    return a.place == b.place;
+  };
+  if (!std::equal(all.points.begin(), all.points.end(), later.points.begin(), later.points.end(),
+                  same_place))
+    throw FormatError("{}: expected the probes of {}, found others", later.files.front(),
+                      all.files.front());
   if (!std::equal(all.columns.begin(), all.columns.end(), later.columns.begin(),
                   later.columns.end(), same))
     throw FormatError("{}: expected the columns of {}, found others", later.files.front(),

@@ -29,6 +29,15 @@ bool has_footer(const std::string& path) {
 
 std::string file_name(const std::string& path) { return fs::path(path).filename().string(); }
 
+// Nothing in a time but, perhaps, what the solver needs to go on.
+bool is_bare(const std::string& directory) {
+  std::error_code error;
+  for (auto entry = fs::directory_iterator(directory, error);
+       !error && entry != fs::directory_iterator(); entry.increment(error))
+    if (file_name(entry->path().string()) != "uniform") return false;
+  return true;
+}
+
 }  // namespace
 
 // The times that every folder has; those that some lack are told.
@@ -110,9 +119,10 @@ void OpenFoamCase::Impl::find_fields() {
   // Times of nothing but a cloud count, too.
   std::erase_if(times, [&](const auto& time) {
     std::error_code error;
-    return time.fields.empty() &&
-           !fs::is_directory(folders.front().path + "/" + time.name + "/" + region + "lagrangian",
-                             error);
+    const auto directory = folders.front().path + "/" + time.name;
+    if (is_bare(directory))
+      problems.push_back(fmt::format("{}: no fields: left out", shown(time.name)));
+    return time.fields.empty() && !fs::is_directory(directory + "/" + region + "lagrangian", error);
   });
 }
 

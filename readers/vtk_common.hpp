@@ -13,11 +13,13 @@
 
 namespace bedscope::readers {
 
-/// The decimal that a float was made of, if that had six digits or fewer: 0.001, not 0.00100000005.
-/// OpenFOAM writes times as float.
-inline double as_written(float value) {
-  double decimal = value;
-  const auto text = fmt::format("{}", value);
+/// The decimal that a time was made of where it is a float: 0.001, not 0.0010000000475. OpenFOAM
+/// writes times as float; a time that is none stays as it is.
+inline double as_written(double time) {
+  const auto single = static_cast<float>(time);
+  if (time != static_cast<double>(single)) return time;
+  double decimal = time;
+  const auto text = fmt::format("{}", single);
   parse_number(text.data(), text.data() + text.size(), decimal);
   return decimal;
 }

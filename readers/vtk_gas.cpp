@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "readers/error.hpp"
+#include "readers/vtk_common.hpp"
 #include "readers/vtk_gas_files.hpp"
 #include "readers/vtk_grid.hpp"
 
@@ -41,7 +42,7 @@ struct Loaded {
       auto grid = open_vtk_grid(file);
       if (grid == nullptr) continue;  // a piece without cells
       mark = mark * 31 + grid->mesh_mark();
-      if (std::isnan(time)) time = grid->time;
+      if (std::isnan(time)) time = as_written(grid->time);
       grids.push_back(std::move(grid));
     }
     if (grids.empty())
@@ -199,7 +200,9 @@ class VtkGas final : public GasForm {
 bool is_vtk_gas(const std::string& path) {
   try {
     const auto file = first_vtk_grid(path);
-    return !file.empty() && open_vtk_grid(file) != nullptr;
+    if (file.empty()) return false;
+    const auto grid = open_vtk_grid(file);
+    return grid != nullptr && !grid->fields.empty();  // a triclinic bounding box has none
   } catch (const CutError&) {
     return false;
   } catch (const FormatError&) {

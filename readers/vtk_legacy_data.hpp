@@ -83,7 +83,8 @@ class LegacyData {
     std::int64_t value = 0;
     bool overflow = false;
     if (!parse_integer(word, value, overflow))
-      fail("{}: expected a count, found \"{}\"", what, printable(word));
+      fail("{}: expected a count, found \"{}\"", *what == '\0' ? "an array" : what,
+           printable(word));
     if (value < 0) fail("{}: negative count {}", what, value);
     return value;
   }

@@ -207,6 +207,8 @@ class LegacyWalk : private LegacyData {
       skip_data(type, size, 4, "LOOKUP_TABLE");
     } else if (keyword == "METADATA") {
       metadata();
+    } else if (line[0] == '\0') {
+      fail("NUL bytes behind the data (file system lost the tail?)");
     } else {
       fail("keyword expected, found \"{}\"", printable(line));
     }
@@ -300,7 +302,6 @@ class LegacyWalk : private LegacyData {
       } else if (name == "TimeValue" && tuples == 1 && components == 1) {
         std::array<double*, 1> target{&time_};
         values(type, 1, target, name);
-        if (type.size == 4) time_ = as_written(static_cast<float>(time_));
       } else {
         check_room(tuples, components, type.size, name);
         skip_data(type, tuples, components, name);

@@ -371,8 +371,7 @@ Document parse_document(std::string_view bytes, const std::string& path,
     const std::uint64_t tuples = time->tuples.value_or(1);
     if (time->components == 1 && tuples > 0) {
       decoder.decode(*time, tuples, values);
-      document.time = time->type == Number::float32 ? as_written(static_cast<float>(values.front()))
-                                                    : values.front();
+      document.time = values.front();
     }
   }
   return document;

@@ -72,7 +72,10 @@ Layout layout_of(const Verdict& verdict, std::span<const Estimate> result, bool 
   }
   add_estimates(y, result);
   if (y.lo > 0 && y.lo < 0.4 * y.hi) y.lo = 0;
-  e.add(0);
+  // Errors of rounding are a line at 0.
+  const double negligible = 1e-3 * std::max(std::abs(y.lo), std::abs(y.hi));
+  e.add(-negligible);
+  e.add(negligible);
   for (const auto& point : verdict.comparison.points) {
     e.add(point.error());
     e.add(coverage_factor * point.u_validation());

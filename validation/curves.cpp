@@ -187,12 +187,12 @@ void set_uncertainties(const Sidecar& sidecar, bool has_bars, Curve& curve) {
       if (!rule.stated()) point.*u = assumed;
     }
     if (rule.stated()) return;
-    curve.assumptions.push_back(
+    curve.assumptions.push_back(one_line(
         digitised
             ? fmt::format("{}: uncertainty of {} not stated; {:.1g} {} ({} % of its range) "
                           "assumed as for a digitised plot",
                           curve.name, title.name, assumed, title.unit, share * 100)
-            : fmt::format("{}: uncertainty of {} not stated; taken as 0", curve.name, title.name));
+            : fmt::format("{}: uncertainty of {} not stated; taken as 0", curve.name, title.name)));
   };
   fill(sidecar.u_x, curve.x, &CurvePoint::x, &CurvePoint::u_x, assumed_u_x);
   if (!has_bars) fill(sidecar.u_y, curve.y, &CurvePoint::y, &CurvePoint::u_y, assumed_u_y);
@@ -270,8 +270,8 @@ Curve read_curve(const CurveSet& set, const std::string& selection,
   std::stable_sort(curve.points.begin(), curve.points.end(),
                    [](const CurvePoint& a, const CurvePoint& b) { return a.x < b.x; });
   if (has_bars)
-    curve.assumptions.push_back(
-        fmt::format("{}: error bars of {} taken as 95 % intervals", selection, curve.y.name));
+    curve.assumptions.push_back(one_line(
+        fmt::format("{}: error bars of {} taken as 95 % intervals", selection, curve.y.name)));
   set_uncertainties(sidecar, has_bars, curve);
   return curve;
 }

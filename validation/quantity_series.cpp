@@ -282,7 +282,7 @@ Sampled temperature_pdf(const RunResult& run, const Place& place) {
                                                        ? species.temperature_pdf_ci95[k]
                                                        : std::nan("")});
   }
-  auto sampled = along("bin_centre", "-", at, density);
+  auto sampled = along("scaled temperature", "-", at, density);
   sampled.is_distribution = true;
   return sampled;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cell_finder.hpp"
+#include "cases/coupled/cell_finder.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,8 @@
 namespace bedscope::coupled {
 namespace {
 
-// Lengths below this share of a cell are rounding of the mesh's points (written with 6 to 12 digits).
+// Lengths below this share of a cell are rounding of the mesh's points (written with 6 to 12
+// digits).
 constexpr double tolerance = 1e-4;
 constexpr double largest_grid = 2e7;  // bins
 
@@ -56,8 +57,10 @@ CellFinder::CellFinder(MeshGeometry mesh) : mesh_(std::move(mesh)) {
   for (int c = 0; c < cells; ++c) {
     int from[3], to[3];
     for (int a = 0; a < 3; ++a) {
-      from[a] = std::clamp(int((mesh_.low[c][a] - low_[a]) * inverse_[a] + tolerance), 0, bins_[a] - 1);
-      to[a] = std::clamp(int((mesh_.high[c][a] - low_[a]) * inverse_[a] - tolerance), 0, bins_[a] - 1);
+      from[a] =
+          std::clamp(int((mesh_.low[c][a] - low_[a]) * inverse_[a] + tolerance), 0, bins_[a] - 1);
+      to[a] =
+          std::clamp(int((mesh_.high[c][a] - low_[a]) * inverse_[a] - tolerance), 0, bins_[a] - 1);
     }
     for (int k = from[2]; k <= to[2]; ++k)
       for (int j = from[1]; j <= to[1]; ++j)

@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "settings.hpp"
+#include "cases/coupled/settings.hpp"
 
 namespace bedscope::coupled {
 
@@ -15,10 +15,10 @@ struct MeshGeometry {
     Vec3 normal;
     double offset;
   };
-  std::vector<Vec3> low, high;    ///< bounding box of each cell [m]
-  std::vector<int> first_plane;   ///< of each cell, and one past the last
+  std::vector<Vec3> low, high;   ///< bounding box of each cell [m]
+  std::vector<int> first_plane;  ///< of each cell, and one past the last
   std::vector<Plane> planes;
-  std::vector<double> volume;     ///< [m3]
+  std::vector<double> volume;  ///< [m3]
   int cells() const { return int(volume.size()); }
 };
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "checkpoint.hpp"
+#include "cases/coupled/checkpoint.hpp"
 
 #include <charconv>
 #include <filesystem>
 #include <fstream>
 
-#include "bad_input.hpp"
+#include "cases/coupled/bad_input.hpp"
 
 namespace fs = std::filesystem;
 
@@ -48,15 +48,23 @@ struct File {
 nlohmann::json as_json(const FeedState& state) {
   nlohmann::json waiting = nlohmann::json::array();
   for (const NewParticle& p : state.waiting) waiting.push_back({p.type, p.diameter, p.density});
-  return {{"draws", state.draws},         {"due", state.due},
-          {"pick", state.pick},           {"left", state.left},
-          {"entered", state.entered},     {"mass_left", state.mass_left},
-          {"mass_entered", state.mass_entered}, {"waiting", waiting}};
+  return {{"draws", state.draws},
+          {"due", state.due},
+          {"left", state.left},
+          {"entered", state.entered},
+          {"mass_left", state.mass_left},
+          {"mass_entered", state.mass_entered},
+          {"waiting", waiting}};
 }
 
 FeedState feed_state(const nlohmann::json& json) {
-  FeedState state{json.at("draws"), json.at("due"),       json.at("pick"),        json.at("left"),
-                  json.at("entered"), json.at("mass_left"), json.at("mass_entered"), {}};
+  FeedState state{json.at("draws"),
+                  json.at("due"),
+                  json.at("left"),
+                  json.at("entered"),
+                  json.at("mass_left"),
+                  json.at("mass_entered"),
+                  {}};
   for (const auto& p : json.at("waiting")) state.waiting.push_back({p[0], p[1], p[2], {}, {}});
   return state;
 }
@@ -83,7 +91,9 @@ void save_checkpoint(MPI_Comm comm, const Gas& gas, Dem& dem, const Feed& feed,
     int ranks;
     MPI_Comm_size(comm, &ranks);
     std::ofstream(unfinished / "state.json")
-        << nlohmann::json{{"ranks", ranks}, {"feed", as_json(feed.state)}, {"record", record}}.dump(1) << '\n';
+        << nlohmann::json{{"ranks", ranks}, {"feed", as_json(feed.state)}, {"record", record}}.dump(
+               1)
+        << '\n';
   }
   MPI_Barrier(comm);
   if (first) {
@@ -108,8 +118,8 @@ nlohmann::json load_checkpoint(MPI_Comm comm, Gas& gas, Dem& dem, Feed& feed) {
     int ranks;
     MPI_Comm_size(comm, &ranks);
     if (state.at("ranks") != ranks)
-      throw BadInput(from.string() + ": written on " + state.at("ranks").dump() + " ranks, resumed on " +
-                     std::to_string(ranks));
+      throw BadInput(from.string() + ": written on " + state.at("ranks").dump() +
+                     " ranks, resumed on " + std::to_string(ranks));
   } catch (const nlohmann::json::exception& error) {
     throw BadInput((from / "state.json").string() + ": " + error.what());
   }

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The complete state of a run, in checkpoint/<step>/: dem.restart by LIGGGHTS, gas.<rank> with the
-// bits of all fields, state.json with the rest. A folder appears under its name when it is complete.
+// bits of all fields, state.json with the rest. A folder appears under its name when it is
+// complete.
 #pragma once
 
 #include <mpi.h>
 
 #include <nlohmann/json.hpp>
 
-#include "dem.hpp"
-#include "feed.hpp"
-#include "gas.hpp"
+#include "cases/coupled/dem.hpp"
+#include "cases/coupled/feed.hpp"
+#include "cases/coupled/gas.hpp"
 
 namespace bedscope::coupled {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "closures.hpp"
+#include "cases/coupled/closures.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "settings.hpp"
+#include "cases/coupled/settings.hpp"
 
 namespace bedscope::coupled {
 

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "coupling.hpp"
+#include "cases/coupled/coupling.hpp"
 
 #include <cmath>
 
-#include "closures.hpp"
+#include "cases/coupled/closures.hpp"
 
 namespace bedscope::coupled {
 
 Coupling::Coupling(Gas& gas, Dem& dem, const CellFinder& finder, MPI_Comm comm, Timing& timing)
-    : gas_(gas), dem_(dem), mapping_(finder, comm, gas.settings().divided), comm_(comm), timing_(timing) {}
+    : gas_(gas),
+      dem_(dem),
+      mapping_(finder, comm, gas.settings().divided),
+      comm_(comm),
+      timing_(timing) {}
 
 void Coupling::map() {
   const Timing::Lap lap(timing_, Part::mapping);

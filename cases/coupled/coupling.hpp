@@ -7,10 +7,10 @@
 // what the particles get. Q_i = h A (<T>_i - T_i), h by Gunn.
 #pragma once
 
-#include "dem.hpp"
-#include "gas.hpp"
-#include "mapping.hpp"
-#include "timing.hpp"
+#include "cases/coupled/dem.hpp"
+#include "cases/coupled/gas.hpp"
+#include "cases/coupled/mapping.hpp"
+#include "cases/coupled/timing.hpp"
 
 namespace bedscope::coupled {
 
@@ -48,10 +48,10 @@ class Coupling {
   MPI_Comm comm_;
   Timing& timing_;
   Particles particles_;
-  std::vector<double> volume_;             // of each particle [m3]
-  std::vector<double> k_, ha_;             // K_i [kg/s], h A [W/K]
+  std::vector<double> volume_;                   // of each particle [m3]
+  std::vector<double> k_, ha_;                   // K_i [kg/s], h A [W/K]
   std::vector<double> force_, pressure_, heat_;  // drag, pressure force, heat of each particle
-  std::vector<double> explicit_velocity_;          // the gas velocity that explicit drag used
+  std::vector<double> explicit_velocity_;        // the gas velocity that explicit drag used
 };
 
 }  // namespace bedscope::coupled

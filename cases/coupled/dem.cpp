@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "dem.hpp"
+#include "cases/coupled/dem.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <fstream>
 
-#include "bad_input.hpp"
+#include "cases/coupled/bad_input.hpp"
 // LIGGGHTS; never together with OpenFOAM's headers.
 #include <liggghts/atom.h>
 #include <liggghts/atom_vec.h>
@@ -81,21 +81,38 @@ struct Dem::Handle {
 
 Dem::Dem(MPI_Comm comm, std::string deck, std::vector<int> wall_types, bool heat)
     : comm_(comm), deck_(std::move(deck)), wall_types_(std::move(wall_types)), heat_(heat) {
-  if (!std::ifstream(deck_)) throw BadInput(deck_ + ": cannot be read; start the program in the case's folder");
+  if (!std::ifstream(deck_))
+    throw BadInput(deck_ + ": cannot be read; start the program in the case's folder");
 }
 Dem::~Dem() = default;
 
 void Dem::open(const std::string& restart) {
   handle_.reset();
   handle_ = std::make_unique<Handle>();
-  // -screen none crashes 3.8.0 when a deck reads an STL file; the log is what is written to the screen.
-  std::vector<std::string> words{"liggghts", "-screen", screen_file, "-log", "none",
-                                 "-var", "coupled", "1", "-var", "steps", "0",
-                                 "-var", "resumed", restart.empty() ? "0" : "1",
-                                 "-var", "restart", restart.empty() ? "none" : restart};
+  // -screen none crashes 3.8.0 when a deck reads an STL file; the log is what is written to the
+  // screen.
+  std::vector<std::string> words{"liggghts",
+                                 "-screen",
+                                 screen_file,
+                                 "-log",
+                                 "none",
+                                 "-var",
+                                 "coupled",
+                                 "1",
+                                 "-var",
+                                 "steps",
+                                 "0",
+                                 "-var",
+                                 "resumed",
+                                 restart.empty() ? "0" : "1",
+                                 "-var",
+                                 "restart",
+                                 restart.empty() ? "none" : restart};
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
-  static const bool once = std::atexit([] { if (inside) tell_error(), _exit(2); }) == 0;
+  static const bool once = std::atexit([] {
+                             if (inside) tell_error(), _exit(2);
+                           }) == 0;
   (void)once;
   const Inside guard;
   std::fflush(stdout);
@@ -106,12 +123,14 @@ void Dem::open(const std::string& restart) {
   silence.reset();
   changed_ = true;
   run(0);  // fixes create what they need when they are first initialised
+  if (FILE* screen = handle_->lmp().screen) log_start_ = std::ftell(screen);
   next_id_ = std::max(next_id_, handle_->atom().tag_max() + 1);
   if (!lammps_extract_fix(handle_->opaque, "dragforce", 1, 2, 0, 0))
     throw BadInput(deck_ + ": no 'fix couple/cfd/force', needed to hand over the gas' force");
   if (heat_ && (!lammps_extract_fix(handle_->opaque, "convectiveHeatFlux", 1, 1, 0, 0) ||
                 !lammps_extract_fix(handle_->opaque, "Temp", 1, 1, 0, 0)))
-    throw BadInput(deck_ + ": no 'fix heat/gran' with 'fix couple/cfd/convection', needed by energy");
+    throw BadInput(deck_ +
+                   ": no 'fix heat/gran' with 'fix couple/cfd/convection', needed by energy");
 }
 
 void Dem::write_restart(const std::string& file) {
@@ -121,8 +140,15 @@ void Dem::write_restart(const std::string& file) {
 
 void Dem::run(int steps) {
   const Inside guard;
-  handle_->command("run " + std::to_string(steps) + (changed_ ? " pre yes" : " pre no") + " post no");
+  handle_->command("run " + std::to_string(steps) + (changed_ ? " pre yes" : " pre no") +
+                   " post no");
   changed_ = false;
+  // LIGGGHTS writes a table a run: of these the log keeps the last megabyte.
+  FILE* screen = handle_->lmp().screen;
+  if (screen && std::ftell(screen) > log_start_ + (1 << 20)) {
+    std::fseek(screen, log_start_, SEEK_SET);
+    if (::ftruncate(::fileno(screen), log_start_) != 0) return;  // longer, that is all
+  }
 }
 
 bool Dem::is_wall(int type) const {
@@ -151,7 +177,8 @@ void Dem::read(Particles& to) {
     }
   }
   if (!heat_) return;
-  const auto* temperature = static_cast<double*>(lammps_extract_fix(handle_->opaque, "Temp", 1, 1, 0, 0));
+  const auto* temperature =
+      static_cast<double*>(lammps_extract_fix(handle_->opaque, "Temp", 1, 1, 0, 0));
   to.temperature.resize(n);
   for (std::size_t i = 0; i < n; ++i) to.temperature[i] = temperature[to.local[i]];
 }
@@ -163,7 +190,8 @@ void Dem::set_force(const Particles& particles, const std::vector<double>& force
 }
 
 void Dem::set_heat(const Particles& particles, const std::vector<double>& heat) {
-  auto* to = static_cast<double*>(lammps_extract_fix(handle_->opaque, "convectiveHeatFlux", 1, 1, 0, 0));
+  auto* to =
+      static_cast<double*>(lammps_extract_fix(handle_->opaque, "convectiveHeatFlux", 1, 1, 0, 0));
   for (int i = 0; i < particles.count(); ++i) to[particles.local[i]] = heat[i];
 }
 

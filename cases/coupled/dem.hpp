@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "settings.hpp"
+#include "cases/coupled/settings.hpp"
 
 namespace bedscope::coupled {
 
@@ -50,7 +50,7 @@ class Dem {
   /// Every rank gives the same list; the one whose part it is places the particle, under new ids.
   void place(const std::vector<NewParticle>& particles);
 
-  long count() const;       ///< all of LIGGGHTS' particles, on all ranks
+  long count() const;        ///< all of LIGGGHTS' particles, on all ranks
   double time_step() const;  ///< [s]
   long step() const;
   MPI_Comm comm() const { return comm_; }
@@ -68,6 +68,7 @@ class Dem {
   bool heat_;
   std::unique_ptr<Handle> handle_;
   int next_id_ = 1;
+  long log_start_ = 0;   ///< where the log of the deck ends and that of the runs begins
   bool changed_ = true;  ///< positions were touched: LIGGGHTS must set up before it runs
 };
 

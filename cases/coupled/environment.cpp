@@ -20,7 +20,8 @@ void give_openfoam_its_folder(int, char** argv, char** environment) {
 }
 
 // Runs before the constructors of shared libraries, which .init_array does not.
-__attribute__((section(".preinit_array"), used)) void (*const before_libraries)(int, char**, char**) =
-    give_openfoam_its_folder;
+__attribute__((section(".preinit_array"),
+               used)) void (*const before_libraries)(int, char**,
+                                                     char**) = give_openfoam_its_folder;
 
 }  // namespace

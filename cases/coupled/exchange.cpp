@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "exchange.hpp"
+#include "cases/coupled/exchange.hpp"
 
 #include <numeric>
 
@@ -54,7 +54,8 @@ void Exchange::plan(int particles, const double* positions, const double* radii)
   copies_ = std::accumulate(recv_count_.begin(), recv_count_.end(), 0);
 }
 
-void Exchange::forward(const std::vector<double>& owned, std::vector<double>& copied, int width) const {
+void Exchange::forward(const std::vector<double>& owned, std::vector<double>& copied,
+                       int width) const {
   if (alone()) {
     copied = owned;
     return;
@@ -65,7 +66,8 @@ void Exchange::forward(const std::vector<double>& owned, std::vector<double>& co
   all_to_all(comm_, out, send_count_, copied, recv_count_, width);
 }
 
-void Exchange::sum_back(const std::vector<double>& copied, std::vector<double>& owned, int width) const {
+void Exchange::sum_back(const std::vector<double>& copied, std::vector<double>& owned,
+                        int width) const {
   if (alone()) {
     owned = copied;
     return;

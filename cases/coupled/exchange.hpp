@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "settings.hpp"
+#include "cases/coupled/settings.hpp"
 
 namespace bedscope::coupled {
 
@@ -23,7 +23,8 @@ class Exchange {
 
   /// width numbers a particle, owner to copies.
   void forward(const std::vector<double>& owned, std::vector<double>& copied, int width) const;
-  /// width numbers a copy, summed over the copies of a particle at its owner, in the order of ranks.
+  /// width numbers a copy, summed over the copies of a particle at its owner, in the order of
+  /// ranks.
   void sum_back(const std::vector<double>& copied, std::vector<double>& owned, int width) const;
 
   MPI_Comm comm() const { return comm_; }
@@ -34,7 +35,7 @@ class Exchange {
   int ranks_ = 1;
   std::vector<double> boxes_;  // low and high of each rank's mesh
   int owned_ = 0, copies_ = 0;
-  std::vector<int> sent_;                   // the owned particle of each entry sent
+  std::vector<int> sent_;                     // the owned particle of each entry sent
   std::vector<int> send_count_, recv_count_;  // particles to and from each rank
 };
 

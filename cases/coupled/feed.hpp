@@ -5,16 +5,15 @@
 #include <cstdint>
 #include <vector>
 
-#include "dem.hpp"
+#include "cases/coupled/dem.hpp"
 
 namespace bedscope::coupled {
 
 /// Everything of it that a checkpoint keeps.
 struct FeedState {
-  std::uint64_t draws = 0;        ///< random numbers used
-  double due = 0;                 ///< mass that should have entered and has not [kg]
-  double pick = -1;               ///< decides the species of the next particle fed; -1: not drawn
-  long left = 0, entered = 0;     ///< particles
+  std::uint64_t draws = 0;     ///< random numbers used
+  std::vector<double> due;     ///< of each species: mass that should have entered and has not [kg]
+  long left = 0, entered = 0;  ///< particles
   double mass_left = 0, mass_entered = 0;  ///< [kg]
   std::vector<NewParticle> waiting;        ///< left, and found no free place yet
 };
@@ -25,8 +24,9 @@ class Feed {
 
   /// Takes out who left and places who is due; true where anything changed, so that the particles
   /// must be mapped again. To be called each gas step. Collective.
-
   bool look(long step, const Particles& particles, Dem& dem);
+
+  double due() const;  ///< of all species [kg]
 
   FeedState state;
 
@@ -34,7 +34,6 @@ class Feed {
   double random();
   void take_leavers(const Particles& particles, std::vector<int>& leaving);
   bool find_place(NewParticle& particle, std::vector<double>& occupied);
-  NewParticle next_fed();
   std::vector<double> spheres_near_entry(const Particles& particles, double reach) const;
 
   const Inventory inventory_;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "gas.hpp"
+#include "cases/coupled/gas.hpp"
 
-#include "argList.H"
-#include "bad_input.hpp"
-#include "gas_fields.hpp"
-#include "settings_reader.hpp"
-#include "sigFpe.H"
+#include <argList.H>
+#include <sigFpe.H>
+#include "cases/coupled/bad_input.hpp"
+#include "cases/coupled/gas_fields.hpp"
+#include "cases/coupled/settings_reader.hpp"
 
 using namespace Foam;
 
@@ -75,8 +75,8 @@ Gas::Gas(bool parallel) {
     Time& time = open_case(parallel);
     f_ = std::make_unique<Fields>(time, read_settings(time));
   } catch (const Foam::IOerror& error) {
-    throw BadInput(error.ioFileName() + ": line " + std::to_string(error.ioStartLineNumber()) + ": " +
-                   error.message());
+    throw BadInput(error.ioFileName() + ": line " + std::to_string(error.ioStartLineNumber()) +
+                   ": " + error.message());
   } catch (const Foam::error& error) {
     throw BadInput(error.message());
   }
@@ -89,7 +89,7 @@ double Gas::time() const { return f_->time.value(); }
 long Gas::step() const { return f_->time.timeIndex(); }
 int Gas::cells() const { return f_->mesh.nCells(); }
 double Gas::pressure_seconds() const { return f_->pressure_seconds; }
-long Gas::floor_hits() const { return f_->floor_hits; }
+long Gas::floor_hits() const { return returnReduce(f_->floor_hits, sumOp<label>()); }
 
 MeshGeometry Gas::geometry() const {
   MeshGeometry geometry;
@@ -124,9 +124,7 @@ void Gas::set_solids(const std::vector<double>& solids_volume) {
   f_->voidfraction.correctBoundaryConditions();
 }
 
-void Gas::forget_old_voidage() {
-  f_->alphaPhi = fvc::interpolate(f_->voidfraction) * f_->phi;
-}
+void Gas::forget_old_voidage() { f_->alphaPhi = fvc::interpolate(f_->voidfraction) * f_->phi; }
 
 const std::vector<double>& Gas::voidage() const { return f_->voidage; }
 
@@ -164,7 +162,8 @@ void Gas::set_solids_velocity(const std::vector<double>& velocity) {
 
 void Gas::begin_step() {
   ++f_->time;
-  // Before they change. The first call makes the old field, the second notes that it is of this step.
+  // Before they change. The first call makes the old field, the second notes that it is of this
+  // step.
   const auto keep = [](auto& field) { field.oldTime(), field.storeOldTimes(); };
   keep(f_->voidfraction);
   keep(f_->U);
@@ -172,9 +171,7 @@ void Gas::begin_step() {
   if (f_->T) keep(*f_->T);
 }
 
-void Gas::write() const {
-  f_->time.writeNow();
-}
+void Gas::write() const { f_->time.writeNow(); }
 
 void Gas::save(std::FILE* file) const {
   const double time = this->time();

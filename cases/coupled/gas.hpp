@@ -11,21 +11,21 @@
 #include <memory>
 #include <vector>
 
-#include "cell_finder.hpp"
-#include "settings.hpp"
+#include "cases/coupled/cell_finder.hpp"
+#include "cases/coupled/settings.hpp"
 
 namespace bedscope::coupled {
 
 /// Sums over all ranks that tell whether a step kept what it must.
 struct GasBalance {
-  double inflow = 0, outflow = 0;   ///< of gas volume [m3/s]
-  double storage = 0;               ///< d/dt of the gas' volume [m3/s]
-  double worst_cell = 0;            ///< largest |d(eps)/dt + div(eps u)| x time step
-  double pressure_drop = 0;         ///< inlet to outlet, mean of the patch, without rho g h [Pa]
-  double courant = 0;               ///< largest u dt / dx
+  double inflow = 0, outflow = 0;    ///< of gas volume [m3/s]
+  double storage = 0;                ///< d/dt of the gas' volume [m3/s]
+  double worst_cell = 0;             ///< largest |d(eps)/dt + div(eps u)| x time step
+  double pressure_drop = 0;          ///< inlet to outlet, mean of the patch, without rho g h [Pa]
+  double courant = 0;                ///< largest u dt / dx
   double heat_in = 0, heat_out = 0;  ///< convected rho c T above 0 K through the boundary [W]
-  double heat_content = 0;          ///< of the gas, above 0 K [J]
-  double outlet_temperature = 0;    ///< weighted by outflow [K]
+  double heat_content = 0;           ///< of the gas, above 0 K [J]
+  double outlet_temperature = 0;     ///< weighted by outflow [K]
 };
 
 class Gas {
@@ -56,19 +56,19 @@ class Gas {
   /// Mean velocity of the particles, for output.
   void set_solids_velocity(const std::vector<double>& cells);
 
-  void begin_step();      ///< the time goes on; present fields become old ones
+  void begin_step();  ///< the time goes on; present fields become old ones
   void solve_flow();
   void solve_energy();
   double pressure_seconds() const;  ///< wall clock spent in pressure equations
-  long floor_hits() const;          ///< cells x steps in which the voidage was below the floor
+  long floor_hits() const;  ///< cells x steps in which the voidage was below the floor; collective
   GasBalance balance() const;
 
   /// Force of the particles on the gas in the last step [N], as the momentum equation had it.
   Vec3 drag_on_particles() const;
   double heat_to_particles() const;  ///< [W]
 
-  void write() const;                      ///< a time directory
-  void save(std::FILE* file) const;        ///< all state, to the bit
+  void write() const;                ///< a time directory
+  void save(std::FILE* file) const;  ///< all state, to the bit
   void load(std::FILE* file);
 
  private:

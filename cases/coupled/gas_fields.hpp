@@ -2,8 +2,8 @@
 // The OpenFOAM side of Gas, shared by gas.cpp, gas_flow.cpp and gas_energy.cpp.
 #pragma once
 
-#include "fvCFD.H"
-#include "gas.hpp"
+#include <fvCFD.H>
+#include "cases/coupled/gas.hpp"
 
 namespace bedscope::coupled {
 
@@ -26,7 +26,7 @@ struct Gas::Fields {
   std::unique_ptr<Foam::volScalarField> H, HTs;  // sum h A / (rho c V) [1/s], times T [K/s]
   std::vector<double> voidage;
   double pressure_seconds = 0;
-  long floor_hits = 0;
+  Foam::label floor_hits = 0;
   Foam::label pressure_cell = 0;  // reference in a domain closed to gas
   Foam::scalar pressure_value = 0;
 

@@ -2,9 +2,9 @@
 // Momentum and continuity of the gas: a predictor and PISO corrections.
 #include <chrono>
 
-#include "constrainHbyA.H"
-#include "constrainPressure.H"
-#include "gas_fields.hpp"
+#include <constrainHbyA.H>
+#include <constrainPressure.H>
+#include "cases/coupled/gas_fields.hpp"
 
 using namespace Foam;
 
@@ -20,13 +20,14 @@ void Gas::solve_flow() {
 
   // The term with fvm::Sp is 0 where continuity holds; it keeps a uniform velocity uniform while
   // the fluxes are still those of the old voidage.
-  fvVectorMatrix UEqn(fvm::ddt(eps, f.U) + fvm::div(f.alphaPhi, f.U) -
-                      fvm::Sp(fvc::ddt(eps) + fvc::div(f.alphaPhi), f.U) -
-                      fvm::laplacian(epsNu, f.U) -
-                      fvc::div(epsNu * dev2(T(fvc::grad(f.U))), "div((voidfraction*nu*dev2(T(grad(U)))))") -
-                      f.KUs);
-  if (f.settings.implicit_drag) UEqn += fvm::Sp(f.K, f.U);
-  else UEqn += f.K * f.U.oldTime();
+  fvVectorMatrix UEqn(
+      fvm::ddt(eps, f.U) + fvm::div(f.alphaPhi, f.U) -
+      fvm::Sp(fvc::ddt(eps) + fvc::div(f.alphaPhi), f.U) - fvm::laplacian(epsNu, f.U) -
+      fvc::div(epsNu * dev2(T(fvc::grad(f.U))), "div((voidfraction*nu*dev2(T(grad(U)))))") - f.KUs);
+  if (f.settings.implicit_drag)
+    UEqn += fvm::Sp(f.K, f.U);
+  else
+    UEqn += f.K * f.U.oldTime();
   UEqn.relax();
   if (piso.getOrDefault<bool>("momentumPredictor", true)) solve(UEqn == -eps * fvc::grad(f.p));
 
@@ -63,8 +64,10 @@ GasBalance Gas::balance() const {
   GasBalance balance;
   const scalarField residual((fvc::ddt(f.voidfraction) + fvc::div(f.alphaPhi))().primitiveField());
   balance.worst_cell = gMax(mag(residual)()) * f.time.deltaTValue();
-  balance.storage = gSum(scalarField(fvc::ddt(f.voidfraction)().primitiveField() * f.mesh.V().field()));
-  const double capacity = f.settings.energy ? f.settings.gas_density * f.settings.energy->heat_capacity : 0;
+  balance.storage =
+      gSum(scalarField(fvc::ddt(f.voidfraction)().primitiveField() * f.mesh.V().field()));
+  const double capacity =
+      f.settings.energy ? f.settings.gas_density * f.settings.energy->heat_capacity : 0;
   double hot = 0;
   forAll(f.mesh.boundary(), patch) {
     if (f.mesh.boundary()[patch].coupled()) continue;
@@ -100,9 +103,9 @@ Vec3 Gas::drag_on_particles() const {
   const Fields& f = *f_;
   const vectorField& u =
       f.settings.implicit_drag ? f.U.primitiveField() : f.U.oldTime().primitiveField();
-  const vector force = f.settings.gas_density *
-                       gSum(vectorField((f.K.primitiveField() * u - f.KUs.primitiveField()) *
-                                        f.mesh.V().field()));
+  const vector force =
+      f.settings.gas_density *
+      gSum(vectorField((f.K.primitiveField() * u - f.KUs.primitiveField()) * f.mesh.V().field()));
   return {force.x(), force.y(), force.z()};
 }
 

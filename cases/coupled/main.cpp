@@ -5,10 +5,10 @@
 #include <cstring>
 #include <filesystem>
 
-#include "bad_input.hpp"
-#include "checkpoint.hpp"
-#include "coupling.hpp"
-#include "record.hpp"
+#include "cases/coupled/bad_input.hpp"
+#include "cases/coupled/checkpoint.hpp"
+#include "cases/coupled/coupling.hpp"
+#include "cases/coupled/record.hpp"
 
 namespace bedscope::coupled {
 namespace {
@@ -63,7 +63,8 @@ class Run {
     const double dem = dem_.time_step() * settings_.dem_steps;
     if (std::abs(dem / settings_.time_step - 1) > 1e-9)
       throw BadInput("CFD/constant/coupledProperties: demSteps x the deck's timestep is " +
-                     std::to_string(dem) + " s, deltaT " + std::to_string(settings_.time_step) + " s");
+                     std::to_string(dem) + " s, deltaT " + std::to_string(settings_.time_step) +
+                     " s");
   }
 
   void update_forces() {
@@ -111,8 +112,9 @@ class Run {
   void check_count() const {
     const long count = dem_.count();
     if (count != expected_)
-      throw BadInput("LIGGGHTS lost " + std::to_string(expected_ - count) + " particles before t = " +
-                     std::to_string(gas_.time()) + " s; the box of the deck must hold them all");
+      throw BadInput("LIGGGHTS lost " + std::to_string(expected_ - count) +
+                     " particles before t = " + std::to_string(gas_.time()) +
+                     " s; the box of the deck must hold them all");
   }
 
   void tell() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mapping.hpp"
+#include "cases/coupled/mapping.hpp"
 
 #include <cmath>
 
@@ -82,7 +82,8 @@ void Mapping::deposit(const std::vector<double>& owned, std::vector<double>& cel
   for (int i = 0; i < exchange_.copies(); ++i)
     for (int n = first_[i]; n < first_[i + 1]; ++n)
       for (int k = 0; k < width; ++k)
-        cells[std::size_t(cell_[n]) * width + k] += weight_[n] * copied_[std::size_t(i) * width + k];
+        cells[std::size_t(cell_[n]) * width + k] +=
+            weight_[n] * copied_[std::size_t(i) * width + k];
 }
 
 void Mapping::gather(const std::vector<double>& cells, std::vector<double>& owned, int width) {
@@ -90,7 +91,8 @@ void Mapping::gather(const std::vector<double>& cells, std::vector<double>& owne
   for (int i = 0; i < exchange_.copies(); ++i)
     for (int n = first_[i]; n < first_[i + 1]; ++n)
       for (int k = 0; k < width; ++k)
-        partial_[std::size_t(i) * width + k] += weight_[n] * cells[std::size_t(cell_[n]) * width + k];
+        partial_[std::size_t(i) * width + k] +=
+            weight_[n] * cells[std::size_t(cell_[n]) * width + k];
   exchange_.sum_back(partial_, owned, width);
 }
 

@@ -5,8 +5,8 @@
 
 #include <vector>
 
-#include "cell_finder.hpp"
-#include "exchange.hpp"
+#include "cases/coupled/cell_finder.hpp"
+#include "cases/coupled/exchange.hpp"
 
 namespace bedscope::coupled {
 
@@ -35,9 +35,9 @@ class Mapping {
   const CellFinder& finder_;
   Exchange exchange_;
   bool divided_;
-  std::vector<double> points_;          // found, of each owned particle, on all ranks
-  std::vector<int> first_, cell_;       // of each copy: its cells here ...
-  std::vector<double> weight_;          // ... and their share of the particle
+  std::vector<double> points_;                      // found, of each owned particle, on all ranks
+  std::vector<int> first_, cell_;                   // of each copy: its cells here ...
+  std::vector<double> weight_;                      // ... and their share of the particle
   std::vector<double> spheres_, copied_, partial_;  // kept to spare allocations
 };
 

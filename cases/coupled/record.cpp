@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "record.hpp"
+#include "cases/coupled/record.hpp"
 
 #include <cmath>
 #include <cstdio>
@@ -49,7 +49,9 @@ Record::Record(MPI_Comm comm, const Gas& gas) {
 void Record::start(double resumed_at) {
   start_time_ = std::max(0.0, resumed_at);
   start_steps_ = tally_.steps;
-  if (first_) replace_file(history_file, resumed_at < 0 ? std::string(header) + '\n' : rows_until(resumed_at));
+  if (first_)
+    replace_file(history_file,
+                 resumed_at < 0 ? std::string(header) + '\n' : rows_until(resumed_at));
 }
 
 void Record::step(const Gas& gas, const Dem&, const GasBalance& balance, double particles) {
@@ -69,7 +71,8 @@ void Record::step(const Gas& gas, const Dem&, const GasBalance& balance, double 
   if (settings.energy) tally_.heat_from_gas += gas.heat_to_particles() * settings.time_step;
 }
 
-void Record::row(const Gas& gas, const ParticleSums& sums, const GasBalance& balance, const Feed& feed) {
+void Record::row(const Gas& gas, const ParticleSums& sums, const GasBalance& balance,
+                 const Feed& feed) {
   const Vec3 on_gas = gas.drag_on_particles();
   const Vec3 off{on_gas[0] - sums.drag[0], on_gas[1] - sums.drag[1], on_gas[2] - sums.drag[2]};
   if (norm(sums.drag) > 0)
@@ -77,12 +80,14 @@ void Record::row(const Gas& gas, const ParticleSums& sums, const GasBalance& bal
   if (!first_) return;
   char line[640];
   std::snprintf(line, sizeof line,
-                "%.9g,%ld,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g,%.9g,%.9g,%.9g\n",
+                "%.9g,%ld,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g,%"
+                ".9g,%.9g,%.9g\n",
                 gas.time(), sums.count, sums.mass, feed.state.mass_entered, feed.state.mass_left,
-                feed.state.due, sums.height, balance.pressure_drop, balance.inflow, balance.outflow,
+                feed.due(), sums.height, balance.pressure_drop, balance.inflow, balance.outflow,
                 balance.storage, sums.drag[0], sums.drag[1], sums.drag[2], sums.pressure_force[2],
                 gas.settings().energy ? balance.outlet_temperature : NAN,
-                gas.settings().energy ? sums.temperature : NAN, gas.settings().energy ? sums.heat : NAN);
+                gas.settings().energy ? sums.temperature : NAN,
+                gas.settings().energy ? sums.heat : NAN);
   std::ofstream(history_file, std::ios::app) << line;
 }
 
@@ -96,9 +101,10 @@ void Record::progress(const Gas& gas, long particles, const Timing& timing) {
   const std::time_t end = std::time(nullptr) + std::time_t(left);
   char clock[16];
   std::strftime(clock, sizeof clock, "%H:%M", std::localtime(&end));
-  std::printf("t = %.4g s of %.4g s, %.0f %%, %ld particles, %.1f ms a step, %.0f min left, ends at %s\n",
-              gas.time(), settings.end_time, 100 * gas.time() / settings.end_time, particles,
-              1e3 * elapsed / double(std::max(1l, tally_.steps - start_steps_)), left / 60, clock);
+  std::printf(
+      "t = %.4g s of %.4g s, %.0f %%, %ld particles, %.1f ms a step, %.0f min left, ends at %s\n",
+      gas.time(), settings.end_time, 100 * gas.time() / settings.end_time, particles,
+      1e3 * elapsed / double(std::max(1l, tally_.steps - start_steps_)), left / 60, clock);
   std::fflush(stdout);
 }
 
@@ -115,30 +121,44 @@ nlohmann::json Record::costs(const Timing& timing) const {
           {"cell_steps_per_second", flow > 0 ? double(cells_) * double(tally_.steps) / flow : 0}};
 }
 
-void Record::write_json(const Gas& gas, const ParticleSums& sums, const Feed& feed, const Timing& timing,
-                        const std::string& state) const {
+void Record::write_json(const Gas& gas, const ParticleSums& sums, const Feed& feed,
+                        const Timing& timing, const std::string& state) const {
+  const long floor_hits = gas.floor_hits();
   if (!first_) return;
   const Settings& settings = gas.settings();
   nlohmann::ordered_json json;
   json["title"] = settings.title;
   json["state"] = state;
-  json["versions"] = {{"bedscope", BEDSCOPE_VERSION}, {"OpenFOAM", OPENFOAM_PACKAGE}, {"LIGGGHTS", LIGGGHTS_PACKAGE}};
-  json["time"] = {{"reached", gas.time()}, {"end", settings.end_time}, {"step", settings.time_step},
-                  {"steps", tally_.steps}, {"dem_steps", tally_.dem_steps}};
-  json["scene"] = {{"gas_density", settings.gas_density}, {"gas_viscosity", settings.gas_viscosity},
-                   {"gravity", settings.gravity}, {"drag", settings.drag},
+  json["versions"] = {{"bedscope", BEDSCOPE_VERSION},
+                      {"OpenFOAM", OPENFOAM_PACKAGE},
+                      {"LIGGGHTS", LIGGGHTS_PACKAGE}};
+  json["time"] = {{"reached", gas.time()},
+                  {"end", settings.end_time},
+                  {"step", settings.time_step},
+                  {"steps", tally_.steps},
+                  {"dem_steps", tally_.dem_steps}};
+  json["scene"] = {{"gas_density", settings.gas_density},
+                   {"gas_viscosity", settings.gas_viscosity},
+                   {"gravity", settings.gravity},
+                   {"drag", settings.drag},
                    {"drag_coupling", settings.implicit_drag ? "implicit" : "explicit"},
                    {"void_fraction", settings.divided ? "divided" : "centre"},
-                   {"cells", cells_}, {"particles", sums.count}, {"solids_mass", sums.mass}};
+                   {"cells", cells_},
+                   {"particles", sums.count},
+                   {"solids_mass", sums.mass}};
   json["ranks"] = ranks_;
-  json["inventory"] = {{"left", feed.state.left}, {"entered", feed.state.entered},
-                       {"mass_left", feed.state.mass_left}, {"mass_entered", feed.state.mass_entered},
-                       {"mass_due", feed.state.due}, {"waiting", feed.state.waiting.size()}};
-  json["conservation"] = {{"gas_in", tally_.gas_in}, {"gas_out", tally_.gas_out},
+  json["inventory"] = {{"left", feed.state.left},
+                       {"entered", feed.state.entered},
+                       {"mass_left", feed.state.mass_left},
+                       {"mass_entered", feed.state.mass_entered},
+                       {"mass_due", feed.due()},
+                       {"waiting", feed.state.waiting.size()}};
+  json["conservation"] = {{"gas_in", tally_.gas_in},
+                          {"gas_out", tally_.gas_out},
                           {"gas_stored", tally_.gas_stored},
                           {"gas_worst_step", tally_.worst_continuity},
                           {"momentum_exchange_worst", tally_.worst_exchange},
-                          {"voidage_floor_hits", gas.floor_hits()},
+                          {"voidage_floor_hits", floor_hits},
                           {"largest_courant", tally_.worst_courant}};
   if (settings.energy)
     json["conservation"].update({{"heat_from_gas_to_particles", tally_.heat_from_gas},
@@ -151,31 +171,48 @@ void Record::print_costs(const Timing& timing) const {
   if (!first_) return;
   const nlohmann::json cost = costs(timing);
   const double wall = cost["wall_seconds"];
-  std::printf("%ld gas steps, %.1f s, %.2f ms a step", tally_.steps, wall, double(cost["ms_per_step"]));
+  std::printf("%ld gas steps, %.1f s, %.2f ms a step", tally_.steps, wall,
+              double(cost["ms_per_step"]));
   for (const char* name : part_names) {
     const double seconds = cost["seconds"][name];
-    if (seconds > 0) std::printf("%s%s %.1f %%", name == part_names[0] ? ": " : ", ", name, 100 * seconds / wall);
+    if (seconds > 0)
+      std::printf("%s%s %.1f %%", name == part_names[0] ? ": " : ", ", name, 100 * seconds / wall);
   }
-  std::printf("\n%.3g particle-steps/s, %.3g cell-steps/s; gas volume kept to %.1e a step, momentum exchange to %.1e\n",
-              double(cost["particle_steps_per_second"]), double(cost["cell_steps_per_second"]),
-              tally_.worst_continuity, tally_.worst_exchange);
+  std::printf(
+      "\n%.3g particle-steps/s, %.3g cell-steps/s; gas volume kept to %.1e a step, momentum "
+      "exchange to %.1e\n",
+      double(cost["particle_steps_per_second"]), double(cost["cell_steps_per_second"]),
+      tally_.worst_continuity, tally_.worst_exchange);
 }
 
 nlohmann::json Record::saved(const Timing& timing) const {
   const Tally& t = tally_;
   nlohmann::json parts;
-  for (std::size_t n = 0; n < part_names.size(); ++n) parts.push_back(t.part_seconds[n] + timing.seconds(Part(n)));
-  return {{"steps", t.steps}, {"dem_steps", t.dem_steps}, {"particle_steps", t.particle_steps},
-          {"worst_continuity", t.worst_continuity}, {"worst_exchange", t.worst_exchange},
-          {"gas_in", t.gas_in}, {"gas_out", t.gas_out}, {"gas_stored", t.gas_stored},
-          {"heat_from_gas", t.heat_from_gas}, {"heat_carried", t.heat_carried},
-          {"worst_courant", t.worst_courant}, {"seconds", t.seconds + timing.elapsed()}, {"parts", parts}};
+  for (std::size_t n = 0; n < part_names.size(); ++n)
+    parts.push_back(t.part_seconds[n] + timing.seconds(Part(n)));
+  return {{"steps", t.steps},
+          {"dem_steps", t.dem_steps},
+          {"particle_steps", t.particle_steps},
+          {"worst_continuity", t.worst_continuity},
+          {"worst_exchange", t.worst_exchange},
+          {"gas_in", t.gas_in},
+          {"gas_out", t.gas_out},
+          {"gas_stored", t.gas_stored},
+          {"heat_from_gas", t.heat_from_gas},
+          {"heat_carried", t.heat_carried},
+          {"worst_courant", t.worst_courant},
+          {"seconds", t.seconds + timing.elapsed()},
+          {"parts", parts}};
 }
 
 void Record::restore(const nlohmann::json& j) {
-  tally_ = {j.at("steps"), j.at("dem_steps"), j.at("particle_steps"), j.at("worst_continuity"),
-            j.at("worst_exchange"), j.at("gas_in"), j.at("gas_out"), j.at("gas_stored"),
-            j.at("heat_from_gas"), j.at("heat_carried"), j.at("worst_courant"), j.at("seconds"), j.at("parts")};
+  tally_ = {j.at("steps"),          j.at("dem_steps"),
+            j.at("particle_steps"), j.at("worst_continuity"),
+            j.at("worst_exchange"), j.at("gas_in"),
+            j.at("gas_out"),        j.at("gas_stored"),
+            j.at("heat_from_gas"),  j.at("heat_carried"),
+            j.at("worst_courant"),  j.at("seconds"),
+            j.at("parts")};
 }
 
 }  // namespace bedscope::coupled

@@ -7,25 +7,25 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "coupling.hpp"
-#include "feed.hpp"
-#include "gas.hpp"
-#include "timing.hpp"
+#include "cases/coupled/coupling.hpp"
+#include "cases/coupled/feed.hpp"
+#include "cases/coupled/gas.hpp"
+#include "cases/coupled/timing.hpp"
 
 namespace bedscope::coupled {
 
 /// Numbers that grow over the whole run, kept by checkpoints.
 struct Tally {
   long steps = 0, dem_steps = 0;
-  double particle_steps = 0;         ///< particles x DEM steps
-  double worst_continuity = 0;       ///< |in - out - storage| / in, largest of all rows
-  double worst_exchange = 0;         ///< |drag on gas + drag on particles| / drag, largest of all rows
-  double gas_in = 0, gas_out = 0;    ///< [m3]
-  double gas_stored = 0;             ///< change of the gas' volume, by the equation [m3]
-  double heat_from_gas = 0;          ///< to the particles [J]
-  double heat_carried = 0;           ///< into the domain by the gas, less out [J]
+  double particle_steps = 0;    ///< particles x DEM steps
+  double worst_continuity = 0;  ///< |in - out - storage| / in, largest of all rows
+  double worst_exchange = 0;    ///< |drag on gas + drag on particles| / drag, largest of all rows
+  double gas_in = 0, gas_out = 0;  ///< [m3]
+  double gas_stored = 0;           ///< change of the gas' volume, by the equation [m3]
+  double heat_from_gas = 0;        ///< to the particles [J]
+  double heat_carried = 0;         ///< into the domain by the gas, less out [J]
   double worst_courant = 0;
-  double seconds = 0;                ///< wall clock of earlier parts of a resumed run
+  double seconds = 0;  ///< wall clock of earlier parts of a resumed run
   std::array<double, part_names.size()> part_seconds{};
 };
 
@@ -33,7 +33,7 @@ class Record {
  public:
   Record(MPI_Comm comm, const Gas& gas);
 
-  void start(double resumed_at);     ///< opens history.csv; rows after resumed_at are dropped
+  void start(double resumed_at);  ///< opens history.csv; rows after resumed_at are dropped
   void step(const Gas& gas, const Dem& dem, const GasBalance& balance, double particles);
   void row(const Gas& gas, const ParticleSums& sums, const GasBalance& balance, const Feed& feed);
   void progress(const Gas& gas, long particles, const Timing& timing);

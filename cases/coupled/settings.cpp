@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "settings_reader.hpp"
+#include "cases/coupled/settings_reader.hpp"
 
 #include <algorithm>
 
@@ -23,7 +23,8 @@ void only(const Foam::dictionary& dict, const std::vector<std::string>& known) {
 
 double positive(const Foam::dictionary& dict, const char* key) {
   const double value = dict.get<Foam::scalar>(key);
-  if (!(value > 0)) refuse(dict, std::string(key) + ": expected a positive number, found " + std::to_string(value));
+  if (!(value > 0))
+    refuse(dict, std::string(key) + ": expected a positive number, found " + std::to_string(value));
   return value;
 }
 
@@ -65,7 +66,8 @@ Inventory read_inventory(const Foam::dictionary& dict) {
   double sum = 0;
   for (const Foam::dictionary& one : Foam::List<Foam::dictionary>(dict.lookup("species"))) {
     inventory.species.push_back({int(one.get<Foam::label>("type")), positive(one, "diameter"),
-                                 positive(one, "density"), one.getOrDefault<Foam::scalar>("fraction", 1)});
+                                 positive(one, "density"),
+                                 one.getOrDefault<Foam::scalar>("fraction", 1)});
     sum += inventory.species.back().fraction;
   }
   if (std::abs(sum - 1) > 1e-9)
@@ -76,10 +78,12 @@ Inventory read_inventory(const Foam::dictionary& dict) {
 Energy read_energy(const Foam::dictionary& dict) {
   only(dict, {"heatCapacity", "conductivity", "exchange", "axialConduction"});
   Energy energy{positive(dict, "heatCapacity"), positive(dict, "conductivity"), {}, {}};
-  const Foam::token exchange =
-      dict.found("exchange") ? Foam::token(dict.lookup("exchange")) : Foam::token(Foam::word("gunn"));
-  if (exchange.isNumber()) energy.exchange = exchange.number();
-  else choice(dict, "exchange", "gunn", {"gunn"});
+  const Foam::token exchange = dict.found("exchange") ? Foam::token(dict.lookup("exchange"))
+                                                      : Foam::token(Foam::word("gunn"));
+  if (exchange.isNumber())
+    energy.exchange = exchange.number();
+  else
+    choice(dict, "exchange", "gunn", {"gunn"});
   energy.axial_conduction =
       choice(dict, "axialConduction", "effective", {"effective", "molecular", "none"});
   return energy;
@@ -89,7 +93,8 @@ Energy read_energy(const Foam::dictionary& dict) {
 
 Settings read_settings(const Foam::Time& time) {
   const Foam::IOdictionary dict(Foam::IOobject("coupledProperties", time.constant(), time,
-                                               Foam::IOobject::MUST_READ, Foam::IOobject::NO_WRITE));
+                                               Foam::IOobject::MUST_READ,
+                                               Foam::IOobject::NO_WRITE));
   only(dict, {"title", "gas", "gravity", "drag", "dragCoupling", "voidFraction", "demSteps",
               "wallTypes", "inventory", "energy", "output", "FoamFile"});
   Settings settings;
@@ -99,7 +104,8 @@ Settings read_settings(const Foam::Time& time) {
   settings.gas_density = positive(gas, "density");
   settings.gas_viscosity = positive(gas, "viscosity");
   settings.gravity = vec3(dict.get<Foam::vector>("gravity"));
-  settings.drag = choice(dict, "drag", "", {"beetstra", "gidaspow", "di_felice", "wen_yu", "ergun", "none"});
+  settings.drag =
+      choice(dict, "drag", "", {"beetstra", "gidaspow", "di_felice", "wen_yu", "ergun", "none"});
   settings.implicit_drag =
       choice(dict, "dragCoupling", "implicit", {"implicit", "explicit"}) == "implicit";
   const Foam::dictionary voids = dict.subOrEmptyDict("voidFraction");

@@ -31,8 +31,8 @@ struct Inventory {
 };
 
 struct Energy {
-  double heat_capacity, conductivity;            ///< of the gas [J/kg/K], [W/m/K]
-  std::optional<double> exchange;                ///< h [W/m2/K]; Gunn's where empty
+  double heat_capacity, conductivity;          ///< of the gas [J/kg/K], [W/m/K]
+  std::optional<double> exchange;              ///< h [W/m2/K]; Gunn's where empty
   std::string axial_conduction = "effective";  ///< effective, molecular, none
 };
 

@@ -2,10 +2,10 @@
 // Reading the settings needs OpenFOAM's dictionaries: for OpenFOAM's side only.
 #pragma once
 
-#include "bad_input.hpp"
-#include "IOdictionary.H"
-#include "Time.H"
-#include "settings.hpp"
+#include <IOdictionary.H>
+#include <Time.H>
+#include "cases/coupled/bad_input.hpp"
+#include "cases/coupled/settings.hpp"
 
 namespace bedscope::coupled {
 

@@ -8,8 +8,8 @@
 namespace bedscope::coupled {
 
 enum class Part { dem, mapping, drag, momentum, pressure, energy, inventory, output };
-constexpr std::array part_names{"DEM",    "mapping",   "drag",     "momentum", "pressure",
-                                "energy", "inventory", "output"};
+constexpr std::array part_names{"DEM",      "mapping", "drag",      "momentum",
+                                "pressure", "energy",  "inventory", "output"};
 
 class Timing {
  public:

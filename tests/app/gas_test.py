@@ -158,6 +158,20 @@ class GasAgainstParticles(GasCommand):
         self.assertAlmostEqual(self.summary()[0]["voidage_ratio"], 0.125, places=6)
         self.assertIn("the radius is off by a factor of 0.5", self.problems())
 
+    def test_a_time_step_that_is_off_by_a_factor_is_told(self):
+        self.moving_clump(lambda t: f"{2 * t:g}")
+        self.analyse(self.study())
+        self.assertIn("its times run from 0 to 0.19 s, the snapshots from 0 to 0.095 s: time_step", self.problems())
+
+    def test_a_density_that_is_not_the_logs_is_told(self):
+        self.moving_clump(lambda t: f"{t:g}")
+        write(self.at("post", "log.liggghts"), "LIGGGHTS (Version LIGGGHTS-PUBLIC 3.8.0)\ntimestep 1e-5\n"
+              "fix p all particletemplate/sphere 1 atom_type 1 density constant 2400 radius constant 0.0006\n")
+        self.analyse(self.study(density=1800))
+        self.assertIn("density of type 1 is 1800 kg/m3", self.problems())
+        self.analyse(self.study(density=2400))
+        self.assertNotIn("density of type", self.problems())
+
     def test_times_that_never_meet(self):
         self.moving_clump(lambda t: f"{t + 0.0021:g}")
         self.analyse(self.study())

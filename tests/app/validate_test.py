@@ -189,45 +189,6 @@ class Validate(unittest.TestCase):
             self.assertIn("study.toml", done.stderr)
             self.assertFalse(os.path.exists(self.folder + "/out/report.html"))
 
-    def test_pipes_devices_and_folders_are_no_curves(self):
-        study = self.study(['quantity = "axial holdup"\nagainst = "mine"\nmetric = "max error"\nlimit = 1'],
-                           head='curves = ["c"]\n')
-        os.makedirs(self.folder + "/c")
-        path = self.folder + "/c/mine"
-        for make in (os.mkfifo, os.mkdir, lambda name: os.symlink("/dev/zero", name)):
-            for ending in (".csv", ".toml"):
-                with open(path + (".toml" if ending == ".csv" else ".csv"), "w") as file:
-                    file.write('redistribute = "no"\n' if ending == ".csv" else "z [m],holdup [-]\n0,0.1\n1,0.1\n")
-                make(path + ending)
-                done = self.validate(study)
-                self.assertLessEqual(done.stderr.count("\n"), 1, done.stderr)
-                self.assertEqual(done.returncode, 2, done.stderr)
-                self.assertFalse(os.path.exists(self.folder + "/out"))
-                (os.rmdir if make is os.mkdir else os.remove)(path + ending)
-                os.remove(path + (".toml" if ending == ".csv" else ".csv"))
-        os.mkfifo(self.folder + "/earlier.json")
-        done = self.validate(self.study(['quantity = "mean holdup"\nagainst = 0.1\nmetric = "max error"\nlimit = 1']),
-                             "--earlier", self.folder + "/earlier.json")
-        self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
-
-    def test_a_write_that_fails_leaves_the_folder_as_it_was(self):
-        check = 'quantity = "axial holdup"\nagainst = 0.08\nmetric = "max error"\nlimit = 1'
-        whole = self.validate(self.study([check]))
-        self.assertEqual(whole.returncode, 0, whole.stderr)
-        out = self.folder + "/out"
-
-        def tree():
-            paths = [os.path.join(folder, name) for folder, _, names in os.walk(out) for name in names]
-            return {path: pathlib.Path(path).read_bytes() for path in paths}
-
-        before = tree()
-        study = self.study([check, check.replace("0.08", "0.07")])
-        sizes = sorted({len(content) for content in before.values()})
-        for limit in [0, *(size - 1 for size in sizes[::3]), sizes[-1] - 1]:
-            done = subprocess.run([BEDSCOPE, "validate", study, "-o", out], capture_output=True, text=True,
-                                  preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)))
-            self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
-            self.assertEqual(tree(), before, limit)
     def test_bad_curves_are_one_line_and_leave_nothing(self):
         os.makedirs(self.folder + "/mine")
         check = 'quantity = "axial holdup"\nagainst = "bad"\nmetric = "relative rmse"\nlimit = 1'
@@ -311,6 +272,20 @@ class Validate(unittest.TestCase):
         self.assertLess(frequency["value"], 0.5)
         self.assertGreater(frequency["hi"], frequency["value"])
 
+    def test_a_bed_without_gas_is_judged_by_a_measured_voidage(self):
+        """Mueller et al.: what the solids leave, here by 0.01 more than was measured."""
+        measured = [(float(r["x [m]"]), float(r["voidage [-]"])) for r in rows_of(
+            PROJECT + "/data/curves/mueller_2009/voidage.csv", **{"U [m/s]": "0.6", "height [m]": "0.0164"})]
+        self.assertGreater(len(measured), 5)
+        self.tables(lateral_profile="height [m],x [m],holdup [-],holdup_ci95 [-]\n" + "".join(
+            f"0.0164,{x},{1 - e - 0.01},0.001\n" for x, e in measured))
+        done = self.validate(self.study([
+            'quantity = "lateral voidage"\nat = { height = 0.0164 }\nagainst = "mueller_2009/voidage?U=0.6"\n'
+            'metric = "relative bias"\nlimit = 0.1']), "--json")
+        (check,) = json.loads(done.stdout)["checks"]
+        self.assertAlmostEqual(check["value"], 0.01 / np.mean([e for _, e in measured]), 9)
+        self.assertEqual(check["verdict"], "holds")
+
     def test_gas_and_histories_of_another_program(self):
         rows = [(k / 10, 500 + 10 * (-1) ** k) for k in range(100)]
         self.tables(
@@ -349,6 +324,46 @@ class Validate(unittest.TestCase):
                     for key in ("title", "citation", "kind", "method", "by", "source", "licence", "redistribute",
                                 "uncertainty_note"):
                         self.assertIn(f"\n{key} = ", "\n" + sidecar, name)
+
+    def test_pipes_devices_and_folders_are_no_curves(self):
+        study = self.study(['quantity = "axial holdup"\nagainst = "mine"\nmetric = "max error"\nlimit = 1'],
+                           head='curves = ["c"]\n')
+        os.makedirs(self.folder + "/c")
+        path = self.folder + "/c/mine"
+        for make in (os.mkfifo, os.mkdir, lambda name: os.symlink("/dev/zero", name)):
+            for ending in (".csv", ".toml"):
+                with open(path + (".toml" if ending == ".csv" else ".csv"), "w") as file:
+                    file.write('redistribute = "no"\n' if ending == ".csv" else "z [m],holdup [-]\n0,0.1\n1,0.1\n")
+                make(path + ending)
+                done = self.validate(study)
+                self.assertLessEqual(done.stderr.count("\n"), 1, done.stderr)
+                self.assertEqual(done.returncode, 2, done.stderr)
+                self.assertFalse(os.path.exists(self.folder + "/out"))
+                (os.rmdir if make is os.mkdir else os.remove)(path + ending)
+                os.remove(path + (".toml" if ending == ".csv" else ".csv"))
+        os.mkfifo(self.folder + "/earlier.json")
+        done = self.validate(self.study(['quantity = "mean holdup"\nagainst = 0.1\nmetric = "max error"\nlimit = 1']),
+                             "--earlier", self.folder + "/earlier.json")
+        self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
+
+    def test_a_write_that_fails_leaves_the_folder_as_it_was(self):
+        check = 'quantity = "axial holdup"\nagainst = 0.08\nmetric = "max error"\nlimit = 1'
+        whole = self.validate(self.study([check]))
+        self.assertEqual(whole.returncode, 0, whole.stderr)
+        out = self.folder + "/out"
+
+        def tree():
+            paths = [os.path.join(folder, name) for folder, _, names in os.walk(out) for name in names]
+            return {path: pathlib.Path(path).read_bytes() for path in paths}
+
+        before = tree()
+        study = self.study([check, check.replace("0.08", "0.07")])
+        sizes = sorted({len(content) for content in before.values()})
+        for limit in [0, *(size - 1 for size in sizes[::3]), sizes[-1] - 1]:
+            done = subprocess.run([BEDSCOPE, "validate", study, "-o", out], capture_output=True, text=True,
+                                  preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)))
+            self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
+            self.assertEqual(tree(), before, limit)
 
     def test_curves_lists_shows_and_prints(self):
         listed = bedscope("curves").stdout

@@ -186,7 +186,7 @@ class BadInput(Case):
         self.assertIn("run ${steps}", self.read("DEM", "in.liggghts"))
 
     def test_files_that_are_no_scene(self):
-        self.assertIn("cannot be read", self.refused("check", self.folder + "/none.toml"))
+        self.assertIn("no such file", self.refused("check", self.folder + "/none.toml"))
         self.assertIn("line 1", self.refused("check", self.write("a.toml", "x = [")))
         self.assertIn("[geometry] is missing", self.refused("check", self.write("b.toml", "")))
         self.assertIn("cannot be read", self.refused("check", self.write("c.toml", 'base = "no.toml"')))

@@ -76,7 +76,11 @@ class FixedBed(unittest.TestCase):
                   f"{off_solid / scale:.2%}, gas {off_gas / scale:.2%} of the step")
             self.assertLess(max(off_solid, off_gas) / scale, 0.01)
         kept = case.record()["conservation"]
-        print("heat balance", kept["heat_from_gas_to_particles"])
+        # All that the particles hold more came from the gas or from their source.
+        gained = RHO * CP_SOLID * volume * sum(row["f_Temp"] - COLD for row in rows.values())
+        given = kept["heat_from_gas_to_particles"] + source * self.COUNT * 40.0
+        print(f"heat of the particles over what they were given, less 1: {gained / given - 1:.1e}")
+        self.assertAlmostEqual(gained / given, 1, delta=1e-4)
 
     def test_heated_bed_follows_anzelius_and_schumann(self):
         self.check(0.0)

@@ -427,6 +427,15 @@ write("tables", "all", parts({
     "cluster_occurrence.csv": "run,time [s],clusters,area_fraction [-]\nr,0.1,1,0.5\nr,0.2,1,0.5\n",
     "temperature.csv": "run,time [s],type,mean [K],std [K],min [K],max [K]\nr,0.1,all,300,1,299,301\n",
     "temperature_pdf.csv": "run,type,bin_centre [-],probability_density [-]\nr,all,0.25,1\nr,all,0.75,1\n"}))
+write("tables", "bed_and_gas", parts({
+    "temperature_axial.csv": "run,type,z [m],temperature [K],temperature_ci95 [K]\nr,all,0.5,300,1\nr,all,1.5,301,1\n",
+    "bed_height.csv": "run,time [s],height [m],height_surface [m]\nr,0.1,0.2,0.3\n",
+    "bubbles.csv": "run,time [s],x [m],z [m],area [m2],velocity_z [m/s]\nr,0.1,0.1,0.2,1e-4,0.3\n",
+    "bubble_profile.csv": "run,height [m],band [m],diameter [m],diameter_ci95 [m]\nr,0.5,0.1,0.01,0.001\n",
+    "fluctuation.csv": "run,signal,unit,mean [unit],std [unit],dominant_frequency [Hz]\nr,p 1,Pa,1,2,3\n",
+    "gas_axial.csv": "run,z [m],voidage [-],pressure [Pa]\nr,1.5,0.9,2\nr,0.5,0.9,3\n",
+    "gas_lateral.csv": "run,height [m],x [m],voidage [-]\nr,1,0.1,0.9\n",
+    "pressure_drop.csv": "run,time [s],pressure_drop [Pa],bed_weight_over_area [Pa]\nr,0.1,400,410\n"}))
 write("tables", "two_runs", parts({"cluster_occurrence.csv": "time [s],clusters,run\n0.1,1,run\n0.2,1,other\r\n"}))
 
 write("curves", "plain", parts({"a/holdup.csv": "U [m/s],x [m],holdup [-]\n5.55,0,0.1\n5.55,0.01,0.2\n7,0,0.3\n",

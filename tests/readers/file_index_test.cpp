@@ -305,6 +305,25 @@ TEST(FileIndex, OfALastSnapshotThePieceThatIsNotThereYetLeavesItOut) {
             std::string::npos);
 }
 
+TEST(FileIndex, AnIndexOfTheLastSnapshotThatIsNotWholeYetLeavesItOut) {
+  const TemporaryFolder folder;
+  for (const int step : {10, 20}) {
+    folder.write(fmt::format("a_{}_0.vtp", step), vtp(1, 2));
+    folder.write(fmt::format("a_{}.pvtp", step), pvtp({fmt::format("a_{}_0.vtp", step)}));
+  }
+  const auto whole = bytes_of(folder.path("a_20.pvtp"));
+  for (const auto& text : {whole.substr(0, 40), whole.substr(0, whole.size() - 20)}) {
+    folder.write("a_20.pvtp", text);
+    const auto series = Series::open(folder.path());
+    EXPECT_EQ(look(series).steps, (std::vector<std::int64_t>{10}));
+    EXPECT_TRUE(series.cut());
+    EXPECT_NE(all(series.problems()).find("a_20.pvtp: "), std::string::npos);
+  }
+  folder.write("a_20.pvtp", whole);
+  folder.write("a_10.pvtp", whole.substr(0, 40));
+  EXPECT_NE(error_of([&] { Series::open(folder.path()); }).find("a_10.pvtp: "), std::string::npos);
+}
+
 TEST(FileIndex, ErrorsNameTheLineOfTheIndex) {
   const TemporaryFolder folder;
   folder.write("good.vtp", vtp(1, 2));

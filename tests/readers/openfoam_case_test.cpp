@@ -137,6 +137,27 @@ TEST(OpenFoamCase, TimesThatARankLacksAreLeftOutAndTold) {
             std::string::npos);
 }
 
+TEST(OpenFoamCase, LastRanksThatAreMissingAreToldByThePatchesOfTheOthers) {
+  const Folder folder;
+  folder.copy(data / "separate/processor0", "processor0");
+  EXPECT_NE(error_of([&] {
+              OpenFoamCase::open(folder.path());
+            }).find("processor0: borders on processor 1 (patch procBoundary0to1)"),
+            std::string::npos);
+  // By itself it may be looked at.
+  EXPECT_EQ(OpenFoamCase::open(folder.path("processor0")).ranks(), 1U);
+}
+
+TEST(OpenFoamCase, ATimeWithoutFieldsIsLeftOutAndTold) {
+  const Folder folder;
+  folder.copy(data / "ascii");
+  fs::create_directories(folder.path("0.002/uniform"));
+  const auto foam = OpenFoamCase::open(folder.path());
+  EXPECT_EQ(time_names(foam), (std::vector<std::string>{"0.003"}));
+  ASSERT_EQ(foam.problems().size(), 1U);
+  EXPECT_NE(foam.problems()[0].find("0.002: no fields: left out"), std::string::npos);
+}
+
 TEST(OpenFoamCase, TimesAreSortedByValueInAnySpelling) {
   const Folder folder;
   folder.copy(data / "ascii");

@@ -6,6 +6,7 @@
 
 #include "openfoam_samples.hpp"
 #include "readers/openfoam_case.hpp"
+#include "readers/openfoam_survey.hpp"
 #include "readers/series.hpp"
 
 namespace bedscope::readers {
@@ -153,6 +154,22 @@ TEST(CloudForm, LastTimeThatIsCutOrLacksAFileIsLeftOutAndTold) {
       EXPECT_NE(error_of([&] { read(alone, 0, {{"id"}}); }).find("origId"), std::string::npos);
     }
   }
+}
+
+TEST(CloudForm, SurveyReadsEveryFileAndTellsOneThatIsMissing) {
+  const Folder folder;
+  for (const auto* time : {"1", "2", "3"}) write_cloud(folder, time, 3);
+  const auto look = [&] {
+    return survey(OpenFoamCase::open(folder.path(), {.mesh_optional = true}), true);
+  };
+  EXPECT_TRUE(look().problems.empty());
+  fs::remove(folder.path("2/lagrangian/kinematicCloud/d"));
+  const auto found = look();
+  ASSERT_EQ(found.problems.size(), 1U);
+  EXPECT_EQ(found.problems[0],
+            "kinematicCloud: time 2: lacks d diameter, which earlier times have");
+  folder.write("2/lagrangian/kinematicCloud/origId", header("labelField") + "3(0 1");
+  EXPECT_NE(error_of(look).find("origId"), std::string::npos);
 }
 
 TEST(CloudForm, CaseWithoutACloudSaysSo) {

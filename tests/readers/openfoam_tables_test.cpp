@@ -107,6 +107,21 @@ TEST(FoamTable, joins_restarts_and_the_later_start_wins) {
   EXPECT_EQ(table.files.size(), 4u);
 }
 
+TEST(FoamTable, probes_of_a_restart_are_the_same_or_an_error) {
+  const TemporaryFolder folder;
+  const std::string other = "# Probe 0 (0 0 1)\n# Probe 1 (1 0 0)\n# Probe 2 (2 0 0)\n";
+  for (const auto* sub : {"0", "0.5"}) fs::create_directories(folder.path(sub));
+  folder.write("0/p", probes);  // no rows: its probes are nobody's
+  folder.write("0.5/p", other + "0.5 1 2 3\n");
+  const auto table = open_foam_table(folder.path());
+  ASSERT_EQ(table.points.size(), 3U);
+  EXPECT_EQ(table.points[*table.columns.back().point].place[0], 2);
+  folder.write("0/p", std::string(probes) + "0.1 1 2\n");
+  EXPECT_EQ(
+      message_of([&] { open_foam_table(folder.path()); }),
+      folder.path("0.5/p") + ": expected the probes of " + folder.path("0/p") + ", found others");
+}
+
 TEST(FoamTable, a_folder_of_several_tables_wants_a_name) {
   TemporaryFolder folder;
   fs::create_directories(folder.path("0"));

@@ -116,6 +116,15 @@ TEST(OwnCurves, SharesAndNumbersOfASidecarAreTaken) {
   EXPECT_DOUBLE_EQ(curve.points[1].u_x, 0.002);
 }
 
+TEST(OwnCurves, AssumptionsAreOnePrintableLineEach) {
+  const TemporaryFolder folder;
+  folder.write("mine.csv", "U,x [m],v [-],v_lo [-],v_hi [-]\na\x1b,0,1,0,2\na\x1b,1,1,0,2\n");
+  const auto curve = open(folder.path()).curve("mine?U=a\x1b");
+  ASSERT_EQ(curve.assumptions.size(), 2U);
+  for (const auto& text : curve.assumptions)
+    EXPECT_NE(text.find("mine?U=a\\x1b"), std::string::npos) << text;
+}
+
 TEST(OwnCurves, FaultsNameFileAndLine) {
   const std::vector<std::array<std::string, 3>> cases{
       {"z,holdup [-]\n0,1\n", "", "column \"z\": expected its unit in brackets"},

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Draws the maps of docs/stability.md that concern the analysis.
 
-    cases/stability/analysis/maps.py build/release/tests/analysis/analysis_stability_test docs/images/stability_analysis
+    cases/stability/analysis/maps.py build/release/tests/analysis/analysis_stability_test docs/images/stability_analysis.png
 
 runs the tests of where the methods fail, takes what they measured (lines "map ...") and draws
 <name>.svg and <name>.png with gnuplot. Fails where a test does.
@@ -38,6 +38,7 @@ DASHES = ["solid", "(10,4)", "(3,3)"]
 MARKERS = [7, 4, 9]
 
 def main(test, name):
+    name = name.removesuffix(".png")
     done = subprocess.run([test], capture_output=True, text=True)
     rows = collections.defaultdict(list)
     for line in done.stdout.splitlines():
