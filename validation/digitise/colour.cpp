@@ -114,45 +114,85 @@ void add_others(const std::vector<cv::Vec3f>& cores, bool lossy, std::vector<cv:
       inks.push_back(colour);
 }
 
-/// Inks in line with a stronger one (a light and a dark blue, grey and black): the edges of the
-/// stronger look like the weaker; an edge pixel beside a stronger one belongs to it.
-void give_edges_to_stronger(const std::vector<cv::Vec3f>& inks, const cv::Mat& difference,
-                            Colours& colours) {
-  for (int weak = 0; weak < static_cast<int>(inks.size()); ++weak)
-    for (int strong = 0; strong < static_cast<int>(inks.size()); ++strong) {
-      if (weak == strong || length(inks[weak]) >= length(inks[strong])) continue;
-      if (share_of(inks[weak], inks[strong]).rest > 45) continue;
-      cv::Mat mine, near;
-      cv::compare(colours.owner, strong, mine, cv::CMP_EQ);
-      cv::dilate(mine, near, cv::Mat::ones(3, 3, CV_8U));
-      for (int y = 0; y < near.rows; ++y)
-        for (int x = 0; x < near.cols; ++x) {
-          if (near.at<uchar>(y, x) == 0 || colours.owner.at<int>(y, x) != weak) continue;
-          colours.owner.at<int>(y, x) = strong;
-          colours.coverage.at<float>(y, x) =
-              std::min(1.0F, share_of(difference.at<cv::Vec3f>(y, x), inks[strong]).share);
-        }
-    }
-}
-
-/// Compression and scanning leave the paper uneven near ink; drawing programs leave it exact.
-bool is_noisy(const cv::Mat& difference) {
-  std::size_t uneven = 0, flat = 0;
-  for (int y = 0; y < difference.rows; ++y)
-    for (int x = 0; x < difference.cols; ++x) {
-      const float d = length(difference.at<cv::Vec3f>(y, x));
-      flat += d < 1.5F;
-      uneven += d >= 1.5F && d < 15;
-    }
-  return uneven > flat / 15;
-}
-
 /// The share that tells where an edge lies: of the luma where the picture was compressed and the
 /// ink is dark enough, as the other channels are smeared there; else of the whole colour.
 float sharp_share(cv::Vec3f d, cv::Vec3f ink, bool lossy) {
   const float full = luma(ink);
   if (lossy && std::abs(full) > 55) return std::clamp(luma(d) / full, 0.0F, 1.0F);
   return std::clamp(d.dot(ink) / ink.dot(ink), 0.0F, 1.0F);
+}
+
+/// The edge of a stroke is a mixture of its ink and the paper, and may look like a paler ink (grey
+/// at the edge of black, a pale violet at that of violet): a pixel beside a stronger one that is a
+/// mixture of that one's ink belongs to it.
+void give_edges_to_stronger(const std::vector<cv::Vec3f>& inks, const cv::Mat& difference,
+                            bool smeared, Colours& colours) {
+  const cv::Mat before = colours.owner.clone();
+  cv::Mat strength(difference.size(), CV_32F);
+  for (int y = 0; y < difference.rows; ++y)
+    for (int x = 0; x < difference.cols; ++x)
+      strength.at<float>(y, x) = length(difference.at<cv::Vec3f>(y, x));
+  for (int y = 1; y + 1 < difference.rows; ++y)
+    for (int x = 1; x + 1 < difference.cols; ++x) {
+      const int own = before.at<int>(y, x);
+      if (own < 0) continue;
+      int best = own;
+      float strongest = 1.15F * strength.at<float>(y, x) + 6;
+      for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx) {
+          const int other = before.at<int>(y + dy, x + dx);
+          if (other < 0 || strength.at<float>(y + dy, x + dx) <= strongest) continue;
+          const auto [share, rest] = share_of(difference.at<cv::Vec3f>(y, x), inks[other]);
+          if (other != own && (rest > 30 || share > 0.95F)) continue;
+          strongest = strength.at<float>(y + dy, x + dx);
+          best = other;
+        }
+      if (best == own) continue;
+      colours.owner.at<int>(y, x) = best;
+      colours.coverage.at<float>(y, x) =
+          sharp_share(difference.at<cv::Vec3f>(y, x), inks[best], smeared);
+    }
+}
+
+struct Noise {
+  bool any = false;     ///< the paper is uneven: compression, scanning, blur
+  bool smears = false;  ///< compression: it spreads the colour of thin strokes
+};
+
+/// Drawing programs leave the paper exact; a blurred stroke does not reach far, the noise of a
+/// scanner is everywhere, and that of compression near strokes.
+Noise noise_of(const cv::Mat& difference) {
+  cv::Mat paper(difference.size(), CV_8U), distance;
+  for (int y = 0; y < difference.rows; ++y)
+    for (int x = 0; x < difference.cols; ++x)
+      paper.at<uchar>(y, x) = length(difference.at<cv::Vec3f>(y, x)) < 25 ? 255 : 0;
+  cv::distanceTransform(paper, distance, cv::DIST_L2, 3);
+  double uneven = 0, flat = 0, near_uneven = 0, near = 1, far_uneven = 0, far = 1;
+  for (int y = 0; y < difference.rows; ++y)
+    for (int x = 0; x < difference.cols; ++x) {
+      const float d = length(difference.at<cv::Vec3f>(y, x)), from = distance.at<float>(y, x);
+      const bool here = d >= 1.5F && d < 15;
+      flat += d < 1.5F;
+      uneven += here;
+      if (from > 3.5F && from < 8) {
+        ++near;
+        near_uneven += here;
+      } else if (from > 20) {
+        ++far;
+        far_uneven += here;
+      }
+    }
+  return {uneven > flat / 15,
+          near_uneven / near > 0.1 && near_uneven / near > 3 * far_uneven / far};
+}
+
+/// The direction of greys: frame, text and grid lines, which would else be taken for a faint ink.
+/// Nothing where an asked ink is nearly neutral itself.
+std::optional<cv::Vec3f> neutral_beside(const std::vector<cv::Vec3f>& inks, cv::Vec3f paper) {
+  const cv::Vec3f neutral = luma(paper) > 128 ? -paper : cv::Vec3f(255, 255, 255) - paper;
+  for (const auto& ink : inks)
+    if (share_of(ink, neutral).rest < 0.2F * length(ink)) return std::nullopt;
+  return neutral;
 }
 
 }  // namespace
@@ -165,21 +205,28 @@ Colours separate(const cv::Mat& page, const cv::Rect& area, bool lossy,
   cv::Mat difference;
   page.convertTo(difference, CV_32F);
   difference -= cv::Scalar(colours.paper[0], colours.paper[1], colours.paper[2]);
-  colours.lossy = lossy || is_noisy(difference(area));
+  const auto noise = noise_of(difference(area));
+  colours.lossy = lossy || noise.any;
+  const bool smeared = lossy || noise.smears;
   const auto cores = core_colours(difference(area));
   std::vector<cv::Vec3f> inks;
   for (std::size_t i = 0; i < asked.size(); ++i) {
-    const auto found = find_again(cores, asked[i] - colours.paper, colours.lossy, 12);
+    const auto found = find_again(cores, asked[i] - colours.paper, smeared, 12);
     if (!found || length(*found) < 25)
       throw InputError(
           "{}: series \"{}\": expected pixels of colour {} in the plot area, found none", where,
           names[i], hex_of(asked[i]));
-    inks.push_back(*found);
+    // Colours given by eye may mean the same ink.
+    const auto same = std::find_if(inks.begin(), inks.end(),
+                                   [&](cv::Vec3f ink) { return length(ink - *found) < 20; });
+    colours.ink_of_asked.push_back(static_cast<int>(same - inks.begin()));
+    if (same == inks.end()) inks.push_back(*found);
   }
-  add_others(cores, colours.lossy, inks);
+  if (const auto neutral = neutral_beside(inks, colours.paper)) inks.push_back(*neutral);
+  add_others(cores, smeared, inks);
 
   cv::Mat blurred = difference;
-  if (colours.lossy) cv::GaussianBlur(difference, blurred, {}, 1.1);
+  if (smeared) cv::GaussianBlur(difference, blurred, {}, 1.1);
   colours.owner = cv::Mat(page.size(), CV_32S, cv::Scalar(-1));
   colours.coverage = cv::Mat::zeros(page.size(), CV_32F);
   for (int y = 0; y < page.rows; ++y)
@@ -191,7 +238,7 @@ Colours separate(const cv::Mat& page, const cv::Rect& area, bool lossy,
       float least = 1e9F;
       for (int k = 0; k < static_cast<int>(inks.size()); ++k) {
         const auto [share, rest] =
-            colours.lossy ? smeared_share_of(who, inks[k]) : share_of(who, inks[k]);
+            smeared ? smeared_share_of(who, inks[k]) : share_of(who, inks[k]);
         const float cost = rest + 12 * std::max(0.0F, 1 - share);  // of two in line, the nearer one
         if (share > 0.02F && cost < least) {
           least = cost;
@@ -199,12 +246,12 @@ Colours separate(const cv::Mat& page, const cv::Rect& area, bool lossy,
         }
       }
       if (best < 0) continue;
-      const float share = sharp_share(d, inks[best], colours.lossy);
+      const float share = sharp_share(d, inks[best], smeared);
       if (share < faint / 3) continue;
       colours.owner.at<int>(y, x) = best;
       colours.coverage.at<float>(y, x) = share;
     }
-  give_edges_to_stronger(inks, difference, colours);
+  give_edges_to_stronger(inks, difference, smeared, colours);
   for (const auto& ink : inks) colours.inks.push_back(ink + colours.paper);
   return colours;
 }

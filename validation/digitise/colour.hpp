@@ -11,10 +11,11 @@ namespace bedscope::digitise {
 
 struct Colours {
   cv::Vec3f paper;
-  std::vector<cv::Vec3f> inks;  ///< the asked ones first, as they are in the picture; then others
-  cv::Mat owner;                ///< CV_32S: index of the ink, -1 paper
-  cv::Mat coverage;             ///< CV_32F, 0 to 1: share of the owner in the pixel
-  bool lossy = false;           ///< the picture has noise of compression or scanning
+  std::vector<cv::Vec3f> inks;    ///< the asked ones first, as they are in the picture; then others
+  std::vector<int> ink_of_asked;  ///< two asked colours may mean the same ink
+  cv::Mat owner;                  ///< CV_32S: index of the ink, -1 paper
+  cv::Mat coverage;               ///< CV_32F, 0 to 1: share of the owner in the pixel
+  bool lossy = false;             ///< the picture has noise of compression, scanning or blur
 };
 
 /// The inks of `area` of the page: those asked for, found again within a tolerance (compression,

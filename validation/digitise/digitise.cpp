@@ -118,6 +118,8 @@ class Digitiser {
     const auto size = page_.image().size();
     found_.plot_area =
         figure_.plot_area ? page_.to_page(*figure_.plot_area) : plot_area(rules, inside, size);
+    if (const auto shaded = shaded_area(page_.image(), inside); shaded && !figure_.plot_area)
+      found_.plot_area &= *shaded;
     area_ = whole_pixels(found_.plot_area, size);
     if (area_.width < 16 || area_.height < 16)
       throw InputError(
@@ -129,17 +131,13 @@ class Digitiser {
   void separate_inks(bool lossy) {
     std::vector<cv::Vec3f> asked;
     std::vector<std::string> names;
-    for (std::size_t i = 0; i < figure_.series.size(); ++i) {
-      const auto& series = figure_.series[i];
-      std::size_t k = 0;
-      while (k < asked.size() && cv::norm(asked[k] - series.colour) > 20) ++k;
-      if (k == asked.size()) {
-        asked.push_back(series.colour);
-        names.push_back(series.name);
-      }
-      members_[static_cast<int>(k)].push_back(i);
+    for (const auto& series : figure_.series) {
+      asked.push_back(series.colour);
+      names.push_back(series.name);
     }
     colours_ = separate(page_.image(), area_, lossy, asked, names, where_);
+    for (std::size_t i = 0; i < figure_.series.size(); ++i)
+      members_[colours_.ink_of_asked[i]].push_back(i);
   }
 
   void find_left_out() {
@@ -211,11 +209,20 @@ class Digitiser {
     for (std::size_t t = 0; t < templates.size(); ++t)
       store_markers(map, templates[t], markers[t], figure_.series[with_markers[t]],
                     found_.series[with_markers[t]], with_line);
-    for (const auto i : members)
-      if (figure_.series[i].kind == Kind::line) {
-        cover_markers(map, templates, markers);
-        store_line(map, all_points(markers), figure_.series[i], found_.series[i]);
+    if (!with_line) return;
+    if (templates.empty())
+      if (const auto unasked = markers_on_line(map)) {
+        templates.push_back(*unasked);
+        markers = find_markers(map, templates);
       }
+    const InkMap whole{map.coverage, map.unknown.clone()};
+    cover_markers(map, templates, markers);
+    for (std::size_t t = 0; t < templates.size(); ++t)
+      for (const auto& one : markers[t])
+        cover(map, find_error_bar(whole, templates[t], one.at, true), one.at);
+    for (const auto i : members)
+      if (figure_.series[i].kind == Kind::line)
+        store_line(map, all_points(markers), figure_.series[i], found_.series[i]);
   }
 
   MarkerQuery query_of(const SeriesSpec& series, int ink) const {

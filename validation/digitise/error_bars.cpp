@@ -41,10 +41,14 @@ struct Looker {
   }
 };
 
+struct End {
+  double row = std::numeric_limits<double>::quiet_NaN();
+  double half_cap = 0;
+};
+
 /// The end of a stroke that leaves the marker's edge row `start` in direction `step` (+1 down).
-double end_of(const Looker& look, int x, int start, int step, double marker_width,
-              bool cap_needed) {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+End end_of(const Looker& look, int x, int start, int step, double marker_width, bool with_line) {
+  const End none;
   std::vector<int> breadths;
   int y = start, last = start - step, broken = 0;
   for (; y >= 0 && y < look.map.coverage.rows; y += step) {
@@ -81,15 +85,17 @@ double end_of(const Looker& look, int x, int start, int step, double marker_widt
       mass += across;
       moment += across * (row + 0.5);
     }
-    if (mass > 0) return moment / mass;
+    if (mass > 0) return {moment / mass, breadths.back() / 2.0};
   }
-  // A marker's own shoulder is no bar, nor is a steep line.
-  if (cap_needed || std::abs(look.centre(last, x) - look.centre(start, x)) > 1.2) return none;
+  // A marker's own shoulder is no bar, nor is a steep line; a line does not end in paper.
+  const double lean = std::abs(look.centre(last, x) - look.centre(start, x));
+  if (lean > (with_line ? 0.6 : 1.2)) return none;
+  if (with_line && (length < 6 || look.breadth(last + 2 * step, x) > 0)) return none;
   if (length < 0.12 * marker_width + 2) return none;
   const double at_last = std::min(1.0, look.on_bar(last, x)),
                beyond = std::min(1.0, look.on_bar(last + step, x));
   const double edge = at_last < 0.9 ? at_last - 1 : beyond;  // how far the ink reaches past the row
-  return (step > 0 ? last + 1 : last) + step * edge;
+  return {(step > 0 ? last + 1 : last) + step * edge, thin / 2.0};
 }
 
 }  // namespace
@@ -100,8 +106,23 @@ ErrorBar find_error_bar(const InkMap& map, const Template& marker, cv::Point2d a
   const int x = cvFloor(at.x);
   const int above = cvFloor(middle.y - marker.box.height / 2 - 1.5);
   const int below = cvFloor(middle.y + marker.box.height / 2 + 1.5);
-  return {end_of(look, x, below, +1, marker.box.width, with_line),
-          end_of(look, x, above, -1, marker.box.width, with_line)};
+  const auto lower = end_of(look, x, below, +1, marker.box.width, with_line);
+  const auto upper = end_of(look, x, above, -1, marker.box.width, with_line);
+  return {lower.row, upper.row, std::max(lower.half_cap, upper.half_cap)};
+}
+
+void cover(InkMap& map, const ErrorBar& bar, cv::Point2d at) {
+  for (const double end : {bar.lower, bar.upper}) {
+    if (std::isnan(end)) continue;
+    const auto hide = [&](double half_width, double from, double to) {
+      const cv::Rect box(cv::Point(cvFloor(at.x - half_width), cvFloor(std::min(from, to))),
+                         cv::Point(cvCeil(at.x + half_width), cvCeil(std::max(from, to))));
+      const cv::Rect there = box & cv::Rect({0, 0}, map.unknown.size());
+      if (!there.empty()) map.unknown(there).setTo(255);
+    };
+    hide(std::min(bar.half_cap, 3.0) + 1.5, at.y, end);
+    hide(bar.half_cap + 2, end - 3, end + 3);
+  }
 }
 
 }  // namespace bedscope::digitise

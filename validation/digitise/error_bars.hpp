@@ -8,11 +8,15 @@ namespace bedscope::digitise {
 
 struct ErrorBar {
   double lower = 0,
-         upper = 0;  ///< rows of the ends (lower: the larger row); NaN where none is seen
+         upper = 0;     ///< rows of the ends (lower: the larger row); NaN where none is seen
+  double half_cap = 0;  ///< half the width of the caps; of the bar where there are none [px]
 };
 
 /// The bar of a marker at `at`, whose template is `marker`. `with_line`: the ink also draws a line
-/// through the markers, so that only a stroke with a cap is a bar.
+/// through the markers, so that a stroke without a cap has to be upright and end in paper.
 ErrorBar find_error_bar(const InkMap& map, const Template& marker, cv::Point2d at, bool with_line);
+
+/// Under a bar nothing is known of a line of its ink.
+void cover(InkMap& map, const ErrorBar& bar, cv::Point2d at);
 
 }  // namespace bedscope::digitise

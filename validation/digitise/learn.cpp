@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <numeric>
 #include <opencv2/imgproc.hpp>
 #include <set>
 
@@ -151,11 +153,29 @@ Template template_of(const Group& group, const InkMap& map) {
   return marker;
 }
 
+/// Twice the distance to the paper along the ridges, by how often it occurs: of a thick line with
+/// markers that of the line, and less than it by about a pixel.
+double ridge_width(const cv::Mat& coverage) {
+  cv::Mat mask, distance, highest;
+  cv::compare(coverage, 0.4, mask, cv::CMP_GT);
+  cv::distanceTransform(mask, distance, cv::DIST_L2, 5);
+  cv::dilate(distance, highest, cv::Mat::ones(3, 3, CV_8U));
+  std::vector<int> counts(64);
+  for (int y = 0; y < mask.rows; ++y)
+    for (int x = 0; x < mask.cols; ++x) {
+      const float d = distance.at<float>(y, x);
+      if (d > 0 && d >= highest.at<float>(y, x))
+        ++counts[static_cast<std::size_t>(std::clamp(cvRound(2 * d - 1), 0, 63))];
+    }
+  return std::max(
+      1.0, static_cast<double>(std::max_element(counts.begin(), counts.end()) - counts.begin()));
+}
+
 /// Filled markers on thinner lines and bars: what an opening by a little more than the stroke
 /// leaves.
 std::optional<Template> on_lines(const InkMap& map, const cv::Mat& mask,
                                  const std::vector<Shape>& shapes) {
-  const double stroke = stroke_width(map.coverage);
+  const double stroke = ridge_width(map.coverage);
   for (const double factor : {1.5, 2.2}) {
     const int disc = 2 * cvRound(factor * stroke / 2 + 0.6) + 1;
     const cv::Mat element = cv::getStructuringElement(cv::MORPH_ELLIPSE, {disc, disc});
@@ -190,20 +210,34 @@ std::optional<Template> on_lines(const InkMap& map, const cv::Mat& mask,
   return std::nullopt;
 }
 
-/// Places where `drawn` correlates with the coverage better than `least`, none within half a box.
-std::vector<std::pair<double, cv::Point2d>> peaks(const cv::Mat& coverage, const cv::Mat& drawn,
+/// A filter that gives 1 where the ink lies as drawn: the share of the drawn ink that is there,
+/// less 0.7 of the share of ink on the paper inside and round it. Lines and bars through an open
+/// marker cost little, a filled patch much.
+cv::Mat matched_filter(const Template& marker) {
+  cv::Mat paper;
+  cv::dilate(marker.inside, paper, cv::Mat::ones(3, 3, CV_8U));
+  paper.setTo(0, marker.ink > 0.15F);
+  paper.convertTo(paper, CV_32F, 1 / 255.0);
+  const double ink = marker.ink.dot(marker.ink), around = std::max(1.0, cv::sum(paper)[0]);
+  return marker.ink / ink - paper * (0.7 / around);
+}
+
+/// Places where the filter's answer is above `least`, none within half a box.
+std::vector<std::pair<double, cv::Point2d>> peaks(const cv::Mat& coverage, const cv::Mat& filter,
                                                   double least, double apart) {
   std::vector<std::pair<double, cv::Point2d>> found;
-  if (drawn.cols >= coverage.cols || drawn.rows >= coverage.rows) return found;
+  if (filter.cols >= coverage.cols || filter.rows >= coverage.rows) return found;
   cv::Mat score, highest;
-  cv::matchTemplate(coverage, drawn, score, cv::TM_CCOEFF_NORMED);
+  cv::filter2D(coverage, score, CV_32F, filter, {filter.cols / 2, filter.rows / 2}, 0,
+               cv::BORDER_CONSTANT);
   const int reach = 2 * std::max(1, cvRound(apart / 2)) + 1;
   cv::dilate(score, highest, cv::Mat::ones(reach, reach, CV_8U));
   for (int y = 0; y < score.rows; ++y)
     for (int x = 0; x < score.cols; ++x) {
       const float s = score.at<float>(y, x);
-      if (s > least && s < 1.01F && s >= highest.at<float>(y, x))
-        found.emplace_back(s, cv::Point2d(x + drawn.cols / 2.0, y + drawn.rows / 2.0));
+      if (s > least && s >= highest.at<float>(y, x))
+        found.emplace_back(std::min(1.0F, s),
+                           cv::Point2d(x + (filter.cols % 2) / 2.0, y + (filter.rows % 2) / 2.0));
     }
   return found;
 }
@@ -221,7 +255,7 @@ std::vector<Guess> rough_guesses(const InkMap& map, const std::vector<Shape>& sh
                                  double stroke) {
   const double largest = std::min(map.coverage.cols, map.coverage.rows) / 8.0;
   std::vector<Guess> guesses;
-  for (double size = std::max(5.0, 3 * stroke); size < largest; size *= 1.15) {
+  for (double size = std::max(5.0, 2.4 * stroke); size < largest; size *= 1.15) {
     const double scale = std::min(1.0, 11 / size), box = size * scale;
     cv::Mat small;
     cv::resize(map.coverage, small, {}, scale, scale, cv::INTER_AREA);
@@ -231,9 +265,10 @@ std::vector<Guess> rough_guesses(const InkMap& map, const std::vector<Shape>& sh
           if (narrow < 1 && shape.outline != Outline::diamond) continue;
           if (thin < 1 && (stroke < 2 || shape.fill == Fill::filled)) continue;
           const cv::Size canvas(cvCeil(box) + 2, cvCeil(box) + 2);
-          const auto drawn =
-              draw_shape(shape, {box * narrow, box}, std::max(0.5, thin * stroke * scale), canvas);
-          auto found = peaks(small, drawn, 0.55, 0.6 * box);
+          const auto drawn = bare_template(
+              draw_shape(shape, {box * narrow, box}, std::max(0.5, thin * stroke * scale), canvas),
+              shape);
+          auto found = peaks(small, matched_filter(drawn), 0.55, 0.6 * box);
           if (found.size() < 2) continue;
           std::sort(found.begin(), found.end(),
                     [](const auto& a, const auto& b) { return a.first > b.first; });
@@ -265,7 +300,6 @@ std::vector<Guess> best_of_each(const std::vector<Guess>& guesses) {
   return best;
 }
 
-/// The map at a size at which strokes are about three pixels wide.
 InkMap coarse(const InkMap& map, double scale) {
   InkMap small;
   cv::resize(map.coverage, small.coverage, {}, scale, scale, cv::INTER_AREA);
@@ -273,42 +307,140 @@ InkMap coarse(const InkMap& map, double scale) {
   return small;
 }
 
+Template drawn_template(const Guess& guess) {
+  const cv::Size canvas(cvCeil(guess.box.width) + 2, cvCeil(guess.box.height) + 2);
+  return bare_template(draw_shape(guess.shape, guess.box, guess.stroke, canvas), guess.shape);
+}
+
+Guess scaled(Guess guess, double by) {
+  guess.box = guess.box * by;
+  guess.stroke *= by;
+  for (auto& place : guess.places) place *= by;
+  return guess;
+}
+
+/// The map at the sizes at which guesses are tried: a marker of some 16 pixels, its stroke not
+/// below 1.3.
+class Sizes {
+ public:
+  explicit Sizes(const InkMap& map) : map_(map) {}
+
+  struct Level {
+    double scale = 1;
+    InkMap sharp, blurred;
+  };
+
+  const Level& level_for(const Guess& guess) {
+    const double size = std::max(guess.box.width, guess.box.height);
+    const bool thin = guess.shape.fill == Fill::open || is_strokes(guess.shape.outline);
+    const double wanted = std::min(1.0, std::max(16 / size, thin ? 1.3 / guess.stroke : 0.0));
+    const int step = cvFloor(-2 * std::log2(wanted));
+    auto& level = levels_[step];
+    if (level.sharp.coverage.empty()) {
+      const double scale = std::exp2(-step / 2.0);
+      level.sharp = step > 0 ? coarse(map_, scale) : map_;
+      level.scale = static_cast<double>(level.sharp.coverage.cols) / map_.coverage.cols;
+      level.blurred.unknown = level.sharp.unknown;
+      cv::GaussianBlur(level.sharp.coverage, level.blurred.coverage, {}, blur);
+    }
+    return level;
+  }
+
+  static constexpr double blur = 1.0;
+
+ private:
+  const InkMap& map_;
+  std::map<int, Level> levels_;
+};
+
+/// The mean score of the better half of a guess's best places. Blurred, a size off by a tenth
+/// still counts for something; an outline of one pixel would else not lie on that in the picture.
+double resemblance(const Sizes::Level& level, const Guess& guess, bool blurred) {
+  auto marker = drawn_template(guess);
+  if (blurred) cv::GaussianBlur(marker.ink, marker.ink, {}, Sizes::blur);
+  std::vector<double> scores;
+  for (std::size_t i = 0; i < std::min<std::size_t>(6, guess.places.size()); ++i)
+    scores.push_back(
+        std::max(0.0, fit(marker, blurred ? level.blurred : level.sharp, guess.places[i]).score));
+  std::sort(scores.rbegin(), scores.rend());
+  scores.resize((scores.size() + 1) / 2);
+  return std::accumulate(scores.begin(), scores.end(), 0.0) / static_cast<double>(scores.size());
+}
+
+/// The width, height and stroke at which a guess lies best.
+Guess refined(const Sizes::Level& level, Guess guess) {
+  for (const bool blurred : {true, false}) {
+    double most = resemblance(level, guess, blurred);
+    for (double step = blurred ? 0.08 : 0.03; step > (blurred ? 0.03 : 0.01); step /= 2)
+      for (bool better = true; better;) {
+        better = false;
+        for (const auto& [wide, high, thick] :
+             {std::array{1, 1, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 3}})
+          for (const double way : {-step, step}) {
+            Guess trial = guess;
+            trial.box.width *= 1 + wide * way;
+            trial.box.height *= 1 + high * way;
+            trial.stroke *= 1 + thick * way;
+            const double thickest = is_strokes(guess.shape.outline) ? 0.3 : 0.45;
+            if (trial.stroke < 0.5 || trial.stroke > thickest * trial.box.width) continue;
+            if (const double now = resemblance(level, trial, blurred); now > most + 2e-3) {
+              most = now;
+              guess = trial;
+              better = true;
+            }
+          }
+      }
+    guess.worth = most;
+    if (most < 0.4) break;
+  }
+  return guess;
+}
+
+/// The three guesses of each shape that resemble most.
+std::vector<Guess> best_three_of_each(Sizes& sizes, std::vector<Guess> guesses) {
+  for (auto& guess : guesses) {
+    const auto& level = sizes.level_for(guess);
+    guess.worth = resemblance(level, scaled(guess, level.scale), true);
+  }
+  std::stable_sort(guesses.begin(), guesses.end(),
+                   [](const auto& a, const auto& b) { return a.worth > b.worth; });
+  std::map<std::pair<Outline, Fill>, int> had;
+  std::erase_if(guesses, [&](const Guess& guess) {
+    return guess.worth < 0.4 || ++had[{guess.shape.outline, guess.shape.fill}] > 3;
+  });
+  return guesses;
+}
+
 /// Drawn shapes of all sizes, for thin and open markers on lines and bars: the one that explains
 /// most ink where it lies well. A smaller one of the same kind would lie as well, but explains
 /// less.
 std::optional<Template> by_search(const InkMap& map, const std::vector<Shape>& shapes) {
-  const double full_stroke = std::max(1.0, stroke_width(map.coverage));
-  const double scale = std::min(1.0, 3 / full_stroke), stroke = full_stroke * scale;
-  const auto small = scale < 0.75 ? coarse(map, scale) : map;
-  const double back = static_cast<double>(map.coverage.cols) / small.coverage.cols;
-  const auto guesses = best_of_each(rough_guesses(small, shapes, stroke));
+  Sizes sizes(map);
+  const auto guesses =
+      best_of_each(rough_guesses(map, shapes, std::max(1.0, stroke_width(map.coverage))));
   double most = 0;
-  const Guess* best = nullptr;
-  for (const auto& guess : guesses) {
-    const cv::Size canvas(cvCeil(guess.box.width) + 2, cvCeil(guess.box.height) + 2);
-    const auto marker =
-        make_template(draw_shape(guess.shape, guess.box, guess.stroke, canvas), guess.shape);
-    const double ink = marker.ink.dot(marker.ink);
+  std::optional<Guess> best;
+  for (const auto& guess : best_three_of_each(sizes, guesses)) {
+    const auto& level = sizes.level_for(guess);
+    const auto finer = refined(level, scaled(guess, level.scale));
+    if (finer.worth < 0.55) continue;
+    const auto marker = drawn_template(finer);
+    const double ink = marker.ink.dot(marker.ink) / (level.scale * level.scale);
     double worth = 0;
     int good = 0;
-    for (const auto& place : guess.places) {
-      const auto found = fit(marker, small, place);
+    for (const auto& place : finer.places) {
+      const auto found = fit(marker, level.sharp, place);
       if (found.score < 0.6 || found.known < 0.8 || found.least_part < 0.6) continue;
       worth += ink * (found.score - 0.5);
       ++good;
     }
     if (good < 2 || worth <= most) continue;
     most = worth;
-    best = &guess;
+    best = scaled(finer, 1 / level.scale);
   }
-  if (best == nullptr) return std::nullopt;
-  const cv::Size2d box = best->box * back;
-  const cv::Size canvas(cvCeil(box.width) + 2, cvCeil(box.height) + 2);
-  auto marker =
-      make_template(draw_shape(best->shape, box, best->stroke * back, canvas), best->shape);
-  std::vector<cv::Point2d> places;
-  for (const auto& place : best->places) places.push_back(place * back);
-  if (cv::Mat median = typical(map, marker, places); !median.empty()) {
+  if (!best) return std::nullopt;
+  auto marker = make_template(drawn_template(*best).ink, best->shape);
+  if (cv::Mat median = typical(map, marker, best->places); !median.empty()) {
     trim(median, marker.inside);
     marker = make_template(without_margin(median, 2), best->shape);
   }
@@ -336,21 +468,47 @@ double worth(const InkMap& map, const Template& marker) {
 
 }  // namespace
 
-double stroke_width(const cv::Mat& coverage) {
-  // Twice the distance to the paper along the ridges, by how often it occurs.
-  cv::Mat mask, distance, highest;
-  cv::compare(coverage, 0.4, mask, cv::CMP_GT);
-  cv::distanceTransform(mask, distance, cv::DIST_L2, 5);
-  cv::dilate(distance, highest, cv::Mat::ones(3, 3, CV_8U));
-  std::vector<int> counts(64);
-  for (int y = 0; y < mask.rows; ++y)
-    for (int x = 0; x < mask.cols; ++x) {
-      const float d = distance.at<float>(y, x);
-      if (d > 0 && d >= highest.at<float>(y, x))
-        ++counts[static_cast<std::size_t>(std::clamp(cvRound(2 * d - 1), 0, 63))];
+namespace {
+
+/// For each pixel the ink of the unbroken stretch of its row that it lies in.
+cv::Mat mass_of_rows(const cv::Mat& coverage) {
+  cv::Mat mass = cv::Mat::zeros(coverage.size(), CV_32F);
+  for (int y = 0; y < coverage.rows; ++y) {
+    const auto* ink = coverage.ptr<float>(y);
+    for (int x = 0; x < coverage.cols; ++x) {
+      int end = x;
+      float sum = 0;
+      while (end < coverage.cols && ink[end] > 0.1F) sum += ink[end++];
+      if (end > x) mass.row(y).colRange(x, end).setTo(sum);
+      x = end;
     }
-  return std::max(
-      1.0, static_cast<double>(std::max_element(counts.begin(), counts.end()) - counts.begin()));
+  }
+  return mass;
+}
+
+}  // namespace
+
+double stroke_width(const cv::Mat& coverage) {
+  // Where a stroke is cut by a row and by a column, its thickness is the height of the triangle of
+  // the two cuts. The commonest by length, in steps of an eighth of an octave.
+  const cv::Mat across = mass_of_rows(coverage), down = mass_of_rows(coverage.t()).t();
+  std::map<int, double> lengths;
+  for (int y = 0; y < coverage.rows; ++y)
+    for (int x = 0; x < coverage.cols; ++x) {
+      if (coverage.at<float>(y, x) < 0.4F) continue;
+      const double h = across.at<float>(y, x), v = down.at<float>(y, x);
+      const double thickness = h * v / std::hypot(h, v);
+      lengths[cvRound(8 * std::log2(thickness))] += coverage.at<float>(y, x) / thickness;
+    }
+  double most = 0, width = 1;
+  for (const auto& [step, length] : lengths) {
+    const auto at = [&](int k) { return lengths.contains(k) ? lengths.at(k) : 0.0; };
+    if (const double around = at(step - 1) + at(step) + at(step + 1); around > most) {
+      most = around;
+      width = std::exp2(step / 8.0);
+    }
+  }
+  return std::max(1.0, width);
 }
 
 std::optional<Template> learn(const InkMap& map, const MarkerQuery& query) {
@@ -384,6 +542,20 @@ std::optional<Template> learn(const InkMap& map, const MarkerQuery& query) {
     return template_of(*group, map);
   }
   return std::nullopt;
+}
+
+std::optional<Template> markers_on_line(const InkMap& map) {
+  const double stroke = stroke_width(map.coverage);
+  const auto marker = learn(map, {});
+  if (!marker || std::min(marker->box.width, marker->box.height) < 2.0 * stroke) return {};
+  const auto found = find_markers(map, {*marker});
+  std::vector<double> scores;
+  for (const auto& one : found[0]) scores.push_back(one.fit.score);
+  if (scores.size() < 4) return {};
+  std::sort(scores.begin(), scores.end());
+  const double ink = cv::sum(marker->ink)[0] * static_cast<double>(scores.size());
+  if (scores[scores.size() / 2] < 0.75 || ink < 0.05 * cv::sum(map.coverage)[0]) return {};
+  return marker;
 }
 
 }  // namespace bedscope::digitise

@@ -67,7 +67,7 @@ std::vector<Word> words_of(const std::vector<cv::Rect>& glyphs) {
 /// The sample beside a row of text: what lies whole in a strip at that side, at its height.
 std::optional<cv::Rect> sample_beside(const cv::Mat& mask, const cv::Rect& text, int height,
                                       bool left, const cv::Rect& area) {
-  const int near = cvRound(0.25 * height), far = cvRound(6.5 * height);
+  const int near = cvRound(0.25 * height), far = cvRound(9 * height);
   const int top = text.y + text.height / 2 - cvRound(1.05 * height);
   const cv::Rect strip = cv::Rect(left ? text.x - far : text.br().x + near, top, far - near,
                                   2 * cvRound(1.05 * height)) &

@@ -187,38 +187,56 @@ std::optional<LinePoint> local_place(const std::vector<Run>& runs, std::size_t c
   return LinePoint{{x, c[0]}, rms * cosine / std::sqrt(static_cast<double>(used.size()) / 3)};
 }
 
+/// At most `points` places, equally spaced along the path, so that steep parts have theirs.
 TracedLine sample(const Path& path, double stroke, int points) {
   TracedLine line;
-  if (path.runs.empty()) return line;
-  const double from = path.runs.front().column, to = path.runs.back().column;
-  const double step = points > 1 ? (to - from) / (points - 1) : to - from + 1;
+  const auto& runs = path.runs;
+  if (runs.empty()) return line;
+  std::vector<double> along{0};
+  for (std::size_t i = 1; i < runs.size(); ++i)
+    along.push_back(along.back() + std::hypot(runs[i].column - runs[i - 1].column,
+                                              runs[i].middle - runs[i - 1].middle));
+  const double step = std::max(1.0, along.back() / std::max(1, points - 1));
   std::size_t next = 0;
-  int last_column = -1;
-  for (int i = 0; i < points; ++i) {
-    const double wanted = from + i * step;
-    while (next + 1 < path.runs.size() && std::abs(path.runs[next + 1].column - wanted) <=
-                                              std::abs(path.runs[next].column - wanted))
+  std::size_t last = runs.size();
+  for (double wanted = 0; wanted < along.back() + 0.5 * step; wanted += step) {
+    while (next + 1 < runs.size() &&
+           std::abs(along[next + 1] - wanted) <= std::abs(along[next] - wanted))
       ++next;
     // The nearest run that is whole.
-    std::size_t chosen = next;
-    double nearest = 1e9;
-    for (std::size_t j = next > 12 ? next - 12 : 0; j < std::min(path.runs.size(), next + 13); ++j)
-      if (const double away = std::abs(path.runs[j].column - wanted);
-          !path.runs[j].cut && away < nearest) {
+    std::size_t chosen = runs.size();
+    double nearest = step;
+    for (std::size_t j = next > 12 ? next - 12 : 0; j < std::min(runs.size(), next + 13); ++j)
+      if (const double away = std::abs(along[j] - wanted); !runs[j].cut && away < nearest) {
         nearest = away;
         chosen = j;
       }
-    if (nearest > std::max(0.5 * step, 1.0) || path.runs[chosen].column == last_column) continue;
-    last_column = path.runs[chosen].column;
-    if (const auto place = local_place(path.runs, chosen, stroke)) line.points.push_back(*place);
+    if (chosen == runs.size() || chosen == last) continue;
+    last = chosen;
+    if (const auto place = local_place(runs, chosen, stroke)) line.points.push_back(*place);
   }
   return line;
 }
 
+/// Blobs thicker than the line (markers) tell nothing of its place, unless they are most of it.
+void hide_blobs(InkMap& map, double stroke) {
+  const int disc = 2 * cvRound(0.85 * stroke + 0.5) + 1;
+  cv::Mat blobs, mask = map.coverage > 0.3F;
+  mask.setTo(0, map.unknown);
+  cv::morphologyEx(mask, blobs, cv::MORPH_OPEN,
+                   cv::getStructuringElement(cv::MORPH_ELLIPSE, {disc, disc}));
+  if (cv::countNonZero(blobs) > 0.6 * cv::countNonZero(mask)) return;
+  cv::dilate(blobs, blobs, cv::Mat::ones(3, 3, CV_8U));
+  map.unknown.setTo(255, blobs);
+}
+
 }  // namespace
 
-TracedLine trace_line(const InkMap& map, const std::vector<LinePoint>& through, int points) {
+TracedLine trace_line(const InkMap& whole, const std::vector<LinePoint>& through, int points) {
+  InkMap map{whole.coverage, whole.unknown.clone()};
   cv::Mat known = map.coverage.clone();
+  known.setTo(0, map.unknown);
+  hide_blobs(map, stroke_width(known));
   known.setTo(0, map.unknown);
   const double all = cv::sum(known)[0], stroke = stroke_width(known);
   const InkMap turned{map.coverage.t(), map.unknown.t()};

@@ -20,7 +20,8 @@ struct TracedLine {
 };
 
 /// The line with the most ink that has one place in each column, or, where that explains more of
-/// the ink, in each row; at most `points` places, equally spaced, each where ink was seen.
+/// the ink, in each row; at most `points` places, equally spaced along the line, each where
+/// ink was seen.
 /// `through`: markers under which the map is unknown and through which the line may go.
 TracedLine trace_line(const InkMap& map, const std::vector<LinePoint>& through, int points);
 

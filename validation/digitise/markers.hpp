@@ -26,6 +26,10 @@ struct Marker {
 /// Nothing where none of these is found.
 std::optional<Template> learn(const InkMap& map, const MarkerQuery& query);
 
+/// The template of markers that nobody asked for on a line of this ink: five or more of them, that
+/// hold more than a twentieth of the ink and fit well. Dots and dashes of the line are no markers.
+std::optional<Template> markers_on_line(const InkMap& map);
+
 /// All markers of some templates in one ink: each place goes to the template that explains it best,
 /// the best place first, and what it explains is not explained twice. One list a template.
 std::vector<std::vector<Marker>> find_markers(const InkMap& map,

@@ -55,7 +55,7 @@ cv::Rect2d Page::to_page(const cv::Rect2d& box) const {
 }
 
 int reduction_for(double length, double stroke) {
-  return std::max(1, std::min(cvFloor(length / 900), cvFloor(stroke / 1.8)));
+  return std::max(1, std::min(cvFloor(length / 900), cvFloor((stroke - 1) / 1.8)));
 }
 
 cv::Vec3f paper_of(const cv::Mat& image, const cv::Rect& part) {

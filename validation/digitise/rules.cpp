@@ -6,6 +6,8 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
+#include "validation/digitise/page.hpp"
+
 namespace bedscope::digitise {
 namespace {
 
@@ -122,6 +124,37 @@ std::optional<double> angle_of(const Rules& rules) {
   for (const auto& [slope, length] : slopes)
     if ((sum += length) >= total / 2) return std::atan(slope) * 180 / std::numbers::pi;
   return std::nullopt;
+}
+
+std::optional<cv::Rect2d> shaded_area(const cv::Mat& page, const cv::Rect2d& inside) {
+  const cv::Rect whole({0, 0}, page.size());
+  const cv::Rect box = cv::Rect(inside) & whole;
+  if (box.width < 8 || box.height < 8) return std::nullopt;
+  const auto outer = paper_of(page, whole), inner = paper_of(page, box);
+  const cv::Rect frame_of_page[] = {{0, 0, page.cols, 4}, {0, page.rows - 4, page.cols, 4}};
+  const auto margin = paper_of(page, frame_of_page[0]), foot = paper_of(page, frame_of_page[1]);
+  const auto differs = [&](cv::Vec3f paper) { return cv::norm(paper - inner) > 8; };
+  cv::Vec3f page_paper = outer;
+  if (!differs(outer)) page_paper = margin;  // the plot fills most of the page
+  if (!differs(page_paper) || cv::norm(margin - foot) > 8) return std::nullopt;
+  // A row or column of the plot has more pixels near the plot's paper than near the page's.
+  const auto of_plot = [&](const cv::Mat& strip) {
+    int plot = 0, rest = 0;
+    for (int y = 0; y < strip.rows; ++y)
+      for (int x = 0; x < strip.cols; ++x) {
+        const cv::Vec3f pixel = strip.at<cv::Vec3b>(y, x);
+        const double a = cv::norm(pixel - inner), b = cv::norm(pixel - page_paper);
+        if (std::min(a, b) < 60) (a < b ? plot : rest) += 1;
+      }
+    return plot >= rest;
+  };
+  int left = box.x, right = box.br().x, top = box.y, bottom = box.br().y;
+  const auto rows = cv::Range(box.y, box.br().y), columns = cv::Range(box.x, box.br().x);
+  while (left > 0 && of_plot(page(rows, {left - 1, left}))) --left;
+  while (right < page.cols && of_plot(page(rows, {right, right + 1}))) ++right;
+  while (top > 0 && of_plot(page({top - 1, top}, columns))) --top;
+  while (bottom < page.rows && of_plot(page({bottom, bottom + 1}, columns))) ++bottom;
+  return cv::Rect2d(left, top, right - left, bottom - top);
 }
 
 cv::Rect2d plot_area(const Rules& rules, const cv::Rect2d& inside, cv::Size page) {

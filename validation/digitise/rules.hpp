@@ -27,6 +27,10 @@ Rules find_rules(const cv::Mat& ink, double least, double thickest);
 /// there is no line.
 std::optional<double> angle_of(const Rules& rules);
 
+/// The part of the page round `inside` that has the paper of the plot, where that is another than
+/// the page's (a shaded plot without a frame).
+std::optional<cv::Rect2d> shaded_area(const cv::Mat& page, const cv::Rect2d& inside);
+
 /// The plot area: of the lines that cross or touch `inside` (the box of the calibration points) and
 /// of the ends of those across them. `inside` grown by an eighth where there are none.
 cv::Rect2d plot_area(const Rules& rules, const cv::Rect2d& inside, cv::Size page);

@@ -233,13 +233,19 @@ std::pair<Shape, double> recognise(const cv::Mat& ink, const std::vector<Shape>&
   return {best, most};
 }
 
-Template make_template(const cv::Mat& ink, const Shape& shape) {
+Template bare_template(const cv::Mat& ink, const Shape& shape) {
   Template marker;
   cv::copyMakeBorder(ink, marker.ink, margin, margin, margin, margin, cv::BORDER_CONSTANT,
                      cv::Scalar(0));
   marker.inside = silhouette(marker.ink);
   cv::dilate(marker.inside, marker.inside, cv::Mat::ones(3, 3, CV_8U));
   marker.shape = shape;
+  marker.box = box_of(marker.ink).size();
+  return marker;
+}
+
+Template make_template(const cv::Mat& ink, const Shape& shape) {
+  Template marker = bare_template(ink, shape);
   const cv::Point2d middle(marker.ink.cols / 2.0, marker.ink.rows / 2.0);
   if (is_triangle(shape.outline)) {
     const int quarters = quarter_turns(shape.outline);
@@ -256,12 +262,10 @@ Template make_template(const cv::Mat& ink, const Shape& shape) {
     const auto moments = cv::moments(marker.ink);
     marker.reference =
         cv::Point2d(moments.m10 / moments.m00 + 0.5, moments.m01 / moments.m00 + 0.5) - middle;
-    marker.box = box_of(marker.ink).size();
   } else {
     cv::Mat half_turn;
     cv::rotate(marker.ink, half_turn, cv::ROTATE_180);
     marker.reference = 0.5 * shift_between(marker.ink, half_turn);
-    marker.box = box_of(marker.ink).size();
   }
   return marker;
 }

@@ -39,6 +39,9 @@ std::pair<Shape, double> recognise(const cv::Mat& ink, const std::vector<Shape>&
 /// All shapes that a bare series may have; of one outline or fill where `asked` says so.
 std::vector<Shape> candidates(const std::optional<Shape>& asked);
 
+/// A template without its reference point, to try a shape.
+Template bare_template(const cv::Mat& ink, const Shape& shape);
+
 /// A template from a picture of a marker, its reference point by symmetry and by the rules of
 /// reference_of().
 Template make_template(const cv::Mat& ink, const Shape& shape);

@@ -51,6 +51,11 @@ def to_polyline(points, curve):
     return np.array(distances), np.array(vectors)
 
 
+def hidden(series, q):
+    """Whether a legend or an inset lies over a place."""
+    return any(b[0] < q[0] < b[2] and b[1] < q[1] < b[3] for b in series.get("hidden", []))
+
+
 def compare(truth, csv_path):
     """A list of dictionaries, one a series: kind, errors, u (both fractions), missed, invented."""
     found = read(csv_path)
@@ -69,19 +74,20 @@ def compare(truth, csv_path):
             i, j = linear_sum_assignment(np.minimum(far, 1))
             near = far[i, j] < 0.5 * max(series["size"])
             i, j = i[near], j[near]
-            under = [any(b[0] < q[0] < b[2] and b[1] < q[1] < b[3] for b in series.get("hidden", [])) for q in real]
-            missed = [k for k in range(len(real)) if k not in i and not under[k]]  # a legend lies over the others
+            missed = [k for k in range(len(real)) if k not in i and not hidden(series, real[k])]
             result.update(missed=len(missed), invented=len(at) - len(j), wanted=len(real),
                           errors=at[j] - real[i], u=u[j])
             if "errors" in series and len(i):
-                e = np.array(series["errors"])[i]
+                e = np.array(series["errors"])[i].reshape(len(i), -1)  # one for both sides, or below and above
                 lo, hi = axes[1].fraction(rows[j, 4]), axes[1].fraction(rows[j, 5])
-                result["bars"] = np.column_stack([lo - (real[i, 1] - e), hi - (real[i, 1] + e)])
+                ends = np.column_stack([lo - (real[i, 1] - e[:, 0]), hi - (real[i, 1] + e[:, -1])])
+                result["bars"] = ends[np.broadcast_to(e, ends.shape) > 0.5 * series["size"][1] + 0.005]  # not within the marker
         else:
             curve = np.array(series["curve"])
             distance, normal = to_polyline(at, curve) if len(at) else (np.empty(0), np.empty((0, 2)))
             across = np.hypot(normal[:, 0] * u[:, 0], normal[:, 1] * u[:, 1])
-            covered = [np.abs(at - q).max(1).min() < 0.03 for q in curve[::max(1, len(curve) // 100)]] if len(at) else [False]
+            seen = [q for q in curve[::max(1, len(curve) // 100)] if not hidden(series, q)]
+            covered = [np.abs(at - q).max(1).min() < 0.03 for q in seen] if seen and len(at) else [False]
             result.update(errors=distance, u=across, followed=float(np.mean(covered)))
         results.append(result)
     return results
