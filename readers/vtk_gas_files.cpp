@@ -142,7 +142,8 @@ std::string first_vtk_grid(const std::string& path) {
   std::error_code error;
   const auto by_index = [&](const std::string& file) {
     const auto index = index_at(file);
-    if (!index.error.empty() || index.snapshots.empty()) return std::string();
+    if (!index.error.empty()) return file;  // whoever opens it is told
+    if (index.snapshots.empty()) return std::string();
     for (const auto& named : index.snapshots.front().files)
       if (!named.path.ends_with(".vtp") && holds_grid(named.path)) return named.path;
     return std::string();

@@ -18,7 +18,8 @@ struct VtkGasTime {
 /// Throws FileError, InputError, FormatError as open_vtk_gas says.
 std::vector<VtkGasTime> vtk_gas_files(const std::string& path, std::vector<std::string>& problems);
 
-/// A file that may hold cells, found by looking at the heads of a few; empty where there is none.
+/// A file that may hold cells, found by looking at the heads of a few, or a damaged index that may
+/// lead to one; empty where there is none.
 std::string first_vtk_grid(const std::string& path);
 
 }  // namespace bedscope::readers

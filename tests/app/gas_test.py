@@ -317,6 +317,7 @@ class GasVtk(GasCommand):
         self.fails(study, "boxes.vtm.series", "boxes_1.vtm", "not found")
         os.remove(self.at("VTK", "boxes.vtm.series"))
         self.analyse(study)  # the one .vtm that is left
+        shutil.rmtree(self.out)
         whole = read(self.at("VTK", "boxes_0", "internal.vtu"))
         write(self.at("VTK", "boxes_0", "internal.vtu"), whole[:9000])
         self.fails(study, "internal.vtu", "line")

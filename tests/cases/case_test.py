@@ -189,7 +189,7 @@ class BadInput(Case):
         self.assertIn("no such file", self.refused("check", self.folder + "/none.toml"))
         self.assertIn("line 1", self.refused("check", self.write("a.toml", "x = [")))
         self.assertIn("[geometry] is missing", self.refused("check", self.write("b.toml", "")))
-        self.assertIn("cannot be read", self.refused("check", self.write("c.toml", 'base = "no.toml"')))
+        self.assertIn("no such file", self.refused("check", self.write("c.toml", 'base = "no.toml"')))
         self.assertIn("nearest known one", self.refused(
             "check", self.over("riser/scene.toml", "numerics.dem_stp = 1")))
         self.refused("scale", SCENES + "riser/scene.toml", "--factor", "-1", "--condition", "b")
