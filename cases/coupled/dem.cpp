@@ -16,6 +16,7 @@
 #include <liggghts/comm.h>
 #include <liggghts/domain.h>
 #include <liggghts/fix.h>
+#include <liggghts/group.h>
 #include <liggghts/lammps.h>
 #include <liggghts/library.h>
 #include <liggghts/modify.h>
@@ -96,6 +97,8 @@ void Dem::open(const std::string& restart) {
                                  screen_file,
                                  "-log",
                                  "none",
+                                 "-echo",
+                                 "screen",
                                  "-var",
                                  "coupled",
                                  "1",
@@ -125,6 +128,7 @@ void Dem::open(const std::string& restart) {
   run(0);  // fixes create what they need when they are first initialised
   if (FILE* screen = handle_->lmp().screen) log_start_ = std::ftell(screen);
   next_id_ = std::max(next_id_, handle_->atom().tag_max() + 1);
+  learn_groups();
   if (!lammps_extract_fix(handle_->opaque, "dragforce", 1, 2, 0, 0))
     throw BadInput(deck_ + ": no 'fix couple/cfd/force', needed to hand over the gas' force");
   if (heat_ && (!lammps_extract_fix(handle_->opaque, "convectiveHeatFlux", 1, 1, 0, 0) ||
@@ -210,6 +214,12 @@ void Dem::place(const std::vector<NewParticle>& particles) {
   LAMMPS_NS::Atom& atom = *lmp.atom;
   for (const NewParticle& particle : particles) {
     const int id = next_id_++;  // never one that was used before
+    const int groups = groups_[std::size_t(particle.type)];
+    if (groups == 0 && lmp.group->ngroup > 1)
+      throw BadInput(
+          deck_ + ": groups besides 'all', and no particle of type " +
+          std::to_string(particle.type) +
+          " at the start: expected one, to tell to which of them those that enter belong");
     const double* low = lmp.domain->sublo;
     const double* high = lmp.domain->subhi;
     bool here = true;
@@ -220,6 +230,7 @@ void Dem::place(const std::vector<NewParticle>& particles) {
     atom.avec->create_atom(particle.type, position.data());
     const int i = atom.nlocal - 1;
     atom.tag[i] = id;
+    if (groups != 0) atom.mask[i] = groups;
     atom.radius[i] = particle.diameter / 2;
     atom.density[i] = particle.density;
     atom.rmass[i] = particle.density * M_PI / 6 * std::pow(particle.diameter, 3);
@@ -234,6 +245,18 @@ void Dem::place(const std::vector<NewParticle>& particles) {
       }
   }
   renumber();
+}
+
+// A group holds those that were there when the deck named it: who enters later has to be told, or
+// feels neither gravity nor what moves the others, and is in no dump.
+void Dem::learn_groups() {
+  const LAMMPS_NS::Atom& atom = handle_->atom();
+  std::vector<int> common(std::size_t(atom.ntypes) + 1, ~0), all(common.size());
+  for (int i = 0; i < atom.nlocal; ++i) common[std::size_t(atom.type[i])] &= atom.mask[i];
+  MPI_Allreduce(common.data(), all.data(), int(all.size()), MPI_INT, MPI_BAND, comm_);
+  groups_.resize(all.size(), 0);
+  for (std::size_t type = 1; type < all.size(); ++type)
+    if (all[type] != ~0) groups_[type] = all[type];
 }
 
 void Dem::renumber() {

@@ -48,6 +48,8 @@ class Dem {
   /// Deletes particles of this rank.
   void remove(std::vector<int> local);
   /// Every rank gives the same list; the one whose part it is places the particle, under new ids.
+  /// It joins the groups to which all particles of its type belonged when the deck was read; throws
+  /// BadInput where the deck has groups and there was none of its type.
   void place(const std::vector<NewParticle>& particles);
 
   long count() const;        ///< all of LIGGGHTS' particles, on all ranks
@@ -59,6 +61,7 @@ class Dem {
   void set_property(const char* name, bool vector, const Particles& particles,
                     const std::vector<double>& values);
   bool is_wall(int type) const;
+  void learn_groups();
   void renumber();
 
   struct Handle;
@@ -67,6 +70,7 @@ class Dem {
   std::vector<int> wall_types_;
   bool heat_;
   std::unique_ptr<Handle> handle_;
+  std::vector<int> groups_;  ///< of each type, LIGGGHTS' bits; 0 while none of it has been seen
   int next_id_ = 1;
   long log_start_ = 0;   ///< where the log of the deck ends and that of the runs begins
   bool changed_ = true;  ///< positions were touched: LIGGGHTS must set up before it runs
