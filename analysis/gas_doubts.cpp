@@ -37,10 +37,6 @@ void GasRun::tell_cover(RunResult& result) const {
         fmt::format("gas: the mesh covers {:.3g} % of the domain; the rest "
                     "does not count in averages",
                     100 * covers));
-  if (!mapping.exact())
-    result.problems.emplace_back(
-        "gas: cells that are not boxes along the axes are mapped as boxes of their volume and "
-        "proportions, an approximation");
 }
 
 /// True where the sides disagree by a constant factor, which explains all other differences.

@@ -6,6 +6,8 @@
 #include <map>
 #include <numeric>
 
+#include "analysis/cell_shapes.hpp"
+
 namespace bedscope::analysis {
 namespace {
 
@@ -24,16 +26,16 @@ double GasMapping::snapped(const Grid& grid, int axis, double x) const {
 }
 
 GasMapping::GasMapping(const readers::Mesh& mesh, const Grid& grid, const std::array<int, 3>& axes)
-    : exact_(mesh.boxes.has_value()),
+    : boxes_(mesh.boxes.has_value()),
       resolution_(mesh.resolution),
       row_(static_cast<std::size_t>(grid.cells[lateral])),
       depth_cells_(static_cast<std::size_t>(grid.cells[depth])),
       volumes_(mesh.volumes),
       grid_cells_(grid.size()) {
-  if (exact_)
+  if (boxes_)
     add_boxes(mesh, grid, axes);
   else
-    add_likenesses(mesh, grid, axes);
+    add_cuts(mesh, grid, axes);
   find_layers(mesh, grid, axes[up]);
 }
 
@@ -82,22 +84,31 @@ void GasMapping::add_boxes(const readers::Mesh& mesh, const Grid& grid,
   }
 }
 
-void GasMapping::add_likenesses(const readers::Mesh& mesh, const Grid& grid,
-                                const std::array<int, 3>& axes) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto axis = static_cast<std::size_t>(axes[k]);
-    span_of_[k].resize(mesh.cells());
-    std::iota(span_of_[k].begin(), span_of_[k].end(), 0);
-    for (std::size_t c = 0; c < mesh.cells(); ++c) {
-      double width = std::cbrt(mesh.volumes[c]);
-      if (!mesh.extents.empty()) {
-        const auto& extent = mesh.extents[c];
-        const double around = extent[0] * extent[1] * extent[2];
-        width = extent[axis] * std::cbrt(mesh.volumes[c] / around);
-      }
-      const double centre = mesh.centres[c][axis];
-      add_span(grid, k, centre - width / 2, centre + width / 2);
-    }
+void GasMapping::add_cuts(const readers::Mesh& mesh, const Grid& grid,
+                          const std::array<int, 3>& axes) {
+  const auto up_axis = static_cast<std::size_t>(axes[up]);
+  std::vector<CellShapes> parts;
+  std::vector<std::pair<const CellShapes*, std::size_t>> shapes(mesh.cells());
+  parts.reserve(mesh.parts.size());
+  for (const auto& part : mesh.parts) {
+    parts.emplace_back(*part.poly, axes,
+                       [&](int axis, double x) { return snapped(grid, axis, x); });
+    for (std::size_t k = 0; k < part.cells.size(); ++k)
+      shapes[static_cast<std::size_t>(part.cells[k])] = {&parts.back(), k};
+  }
+  CellCutter cutter(grid);
+  cut_starts_.push_back(0);
+  for (std::size_t c = 0; c < mesh.cells(); ++c) {
+    const auto& [part, cell] = shapes[c];
+    part->cut(cell, volumes_[c], cutter);
+    const auto& shares = cutter.finish();
+    cuts_.insert(cuts_.end(), shares.begin(), shares.end());
+    cut_starts_.push_back(cuts_.size());
+    inside_.push_back(cutter.inside());
+    const auto& extent = mesh.extents[c];
+    const double around = extent[0] * extent[1] * extent[2];
+    const double half = extent[up_axis] * std::cbrt(std::abs(volumes_[c]) / around) / 2;
+    rises_.push_back({mesh.centres[c][up_axis] - half, mesh.centres[c][up_axis] + half});
   }
 }
 
@@ -122,8 +133,8 @@ double GasMapping::outside_volume() const {
 GasMapping::Layer GasMapping::layer_at(double height, const std::vector<double>& centres) const {
   Layer layer;
   for (std::size_t c = 0; c < cells(); ++c) {
-    const auto& rise = span(up, c);
-    if (inside(c) < 0.5 || !(rise.low <= height && height < rise.high)) continue;
+    const auto [low, high] = rise(c);
+    if (inside(c) < 0.5 || !(low <= height && height < high)) continue;
     layer.cells.push_back(c);
     layer.volume += volumes_[c];
     layer.height += volumes_[c] * centres[c];
@@ -151,8 +162,8 @@ void GasMapping::find_layers(const readers::Mesh& mesh, const Grid& grid, int ax
   const auto lowest = layer_at(std::ranges::min(inside_centres), centres);
   const auto highest = layer_at(std::ranges::max(inside_centres), centres);
   double above = -INFINITY, below = INFINITY;  // where the layers next to these begin
-  for (const auto c : lowest.cells) above = std::max(above, span(up, c).high);
-  for (const auto c : highest.cells) below = std::min(below, span(up, c).low);
+  for (const auto c : lowest.cells) above = std::max(above, rise(c)[1]);
+  for (const auto c : highest.cells) below = std::min(below, rise(c)[0]);
   double second = INFINITY, last_but_one = -INFINITY;
   for (const double z : inside_centres) {
     if (z > above) second = std::min(second, z);

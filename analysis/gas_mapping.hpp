@@ -14,30 +14,37 @@
 
 namespace bedscope::analysis {
 
-/// Where the cells of the mesh are boxes along the axes their overlap with the cells of the grid is
-/// exact. Elsewhere each cell is taken as a box of its own volume about its own centre, with the
-/// proportions of the box around it (a cube where these are unknown); it may then reach a little
-/// into its neighbours, but its volume is still all there. Fields are constant in a cell.
+/// The overlap of the cells of the mesh with those of the grid is exact: in closed form where all
+/// cells of the mesh are boxes along the axes, else by cutting them along the planes of the grid.
+/// Faces that are not plane are taken as triangles about the average of their points, as OpenFOAM
+/// takes them; its volume of such a cell, which is a little different, is shared out in proportion.
+/// Fields are constant in a cell.
 ///
 /// Every volume is shared out completely: the parts in the grid and the part outside of it add up
-/// to the cell to rounding. Planes of the mesh within 1e-6 of a grid cell of a plane of the grid
-/// (or what the coordinates of the mesh are rounded to) are taken as that plane, so that no slivers
-/// of a cell lie beyond a wall. Periodic axes do not wrap.
+/// to the cell to rounding. Planes (points) of the mesh within 1e-6 of a grid cell of a plane of
+/// the grid (or what the coordinates of the mesh are rounded to) are taken as on that plane, so
+/// that no slivers of a cell lie beyond a wall. Periodic axes do not wrap.
 class GasMapping {
  public:
   /// `axes`: which of x, y, z (0, 1, 2) is lateral, depth, up.
   GasMapping(const readers::Mesh& mesh, const Grid& grid, const std::array<int, 3>& axes);
 
   std::size_t cells() const { return volumes_.size(); }
-  bool exact() const { return exact_; }
+  bool boxes() const { return boxes_; }  ///< whether all cells of the mesh are boxes along the axes
   double volume(std::size_t cell) const { return volumes_[cell]; }  ///< [m3]
   /// Share of a cell that lies in the domain.
   double inside(std::size_t cell) const {
+    if (!boxes_) return inside_[cell];
     return span(0, cell).inside * span(1, cell).inside * span(2, cell).inside;
   }
   /// Calls take(cell of the grid, volume [m3]) for each that a cell of the mesh overlaps.
   template <class Take>
   void share(std::size_t cell, Take&& take) const {
+    if (!boxes_) {
+      for (auto k = cut_starts_[cell]; k < cut_starts_[cell + 1]; ++k)
+        take(cuts_[k].first, volumes_[cell] * cuts_[k].second);
+      return;
+    }
     const Span &x = span(0, cell), &y = span(1, cell), &z = span(2, cell);
     for (std::size_t k = 0; k < z.parts; ++k)
       for (std::size_t j = 0; j < y.parts; ++j) {
@@ -73,21 +80,33 @@ class GasMapping {
   const Span& span(std::size_t axis, std::size_t cell) const {
     return spans_[axis][static_cast<std::size_t>(span_of_[axis][cell])];
   }
+  /// From and to of a cell along up [m]; where cells are not boxes, about their centre, so that
+  /// layers of slanting cells do not reach into one another.
+  std::array<double, 2> rise(std::size_t cell) const {
+    if (!boxes_) return rises_[cell];
+    return {span(2, cell).low, span(2, cell).high};
+  }
   double snapped(const Grid& grid, int axis, double x) const;
   void add_span(const Grid& grid, std::size_t axis, double low, double high);
   void add_boxes(const readers::Mesh& mesh, const Grid& grid, const std::array<int, 3>& axes);
-  void add_likenesses(const readers::Mesh& mesh, const Grid& grid, const std::array<int, 3>& axes);
+  void add_cuts(const readers::Mesh& mesh, const Grid& grid, const std::array<int, 3>& axes);
   Layer layer_at(double height, const std::vector<double>& centres) const;
   void add_pressure(const Layer& near, const Layer& next, double end, double sign);
   void find_layers(const readers::Mesh& mesh, const Grid& grid, int axis);
 
-  bool exact_ = false;
+  bool boxes_ = false;
   double resolution_ = 0;  // of the mesh [m]
   std::size_t row_ = 1, depth_cells_ = 1;
   std::vector<double> volumes_;
   std::array<std::vector<Span>, 3> spans_;
   std::array<std::vector<double>, 3> parts_;
   std::array<std::vector<std::int32_t>, 3> span_of_;  // of each cell
+  // Where cells are not boxes: the cells of the grid with shares of cell c are
+  // cuts_[cut_starts_[c]] ... cuts_[cut_starts_[c + 1]].
+  std::vector<std::pair<std::size_t, double>> cuts_;
+  std::vector<std::size_t> cut_starts_;
+  std::vector<double> inside_;
+  std::vector<std::array<double, 2>> rises_;
   std::size_t grid_cells_ = 0;
   std::vector<std::pair<std::size_t, double>> pressure_drop_;
 };

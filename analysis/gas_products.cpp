@@ -143,6 +143,13 @@ void GasSource::make_check(const SnapshotProduct& particles, std::size_t time, V
   const double in_domain = particles.volume > 0 ? particles.volume_inside / particles.volume : 1;
   check.bed_mass = run_->density_from == RunSetup::Density::unknown ? undefined : mass * in_domain;
 
+  // A slanting wall cuts cells of the grid, and their particles are on its inner side. Box meshes
+  // end where they end: whether particles lie beyond is not known.
+  if (!mapping->boxes()) {
+    const auto filled = mapping->covered();
+    for (std::size_t k = 0; k < cells; ++k)
+      if (filled[k] > 0) scratch.holdup[k] *= run_->grid.cell_volume() / filled[k];
+  }
   // To the mesh and back, and the voidage to the grid: volume, phi V, (1 - eps) V of each cell.
   std::vector<std::array<double, 3>> sums(cells);
   check.solids_volume = check.gas_side_volume = 0;

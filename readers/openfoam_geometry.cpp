@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "readers/openfoam_mesh.hpp"
 
@@ -146,7 +147,7 @@ CellGeometry cell_geometry(const PolyMesh& mesh) {
   return cells;
 }
 
-Mesh make_mesh(CellGeometry cells, double resolution) {
+Mesh make_mesh(CellGeometry cells, std::vector<MeshPart> parts, double resolution) {
   Mesh mesh;
   mesh.resolution = resolution;
   mesh.boxes = recognise_boxes(cells, resolution);
@@ -158,12 +159,23 @@ Mesh make_mesh(CellGeometry cells, double resolution) {
       mesh.min[a] = std::min(mesh.min[a], cells.low[c][a]);
       mesh.max[a] = std::max(mesh.max[a], cells.high[c][a]);
     }
-  if (!mesh.boxes)
+  if (!mesh.boxes) {
     for (std::size_t c = 0; c < cells.volumes.size(); ++c)
       mesh.extents.push_back(cells.high[c] - cells.low[c]);
+    mesh.parts = std::move(parts);
+  }
   mesh.centres = std::move(cells.centres);
   mesh.volumes = std::move(cells.volumes);
   return mesh;
+}
+
+Mesh make_mesh(PolyMesh poly) {
+  auto cells = cell_geometry(poly);
+  std::vector<std::int32_t> order(poly.cells);
+  std::iota(order.begin(), order.end(), 0);
+  std::vector<MeshPart> parts;
+  parts.push_back({std::make_shared<const PolyMesh>(std::move(poly)), std::move(order)});
+  return make_mesh(std::move(cells), std::move(parts));
 }
 
 }  // namespace bedscope::readers

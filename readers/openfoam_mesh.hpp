@@ -62,12 +62,19 @@ struct BoxCells {
   bool rectilinear = false;
 };
 
+/// The faces of cells that are not boxes: cell k of `poly` is cell `cells[k]` of the mesh.
+struct MeshPart {
+  std::shared_ptr<const PolyMesh> poly;
+  std::vector<std::int32_t> cells;
+};
+
 /// What the analysis takes: cells in the order of the fields.
 struct Mesh {
   std::vector<Point> centres;     ///< [m]
   std::vector<double> volumes;    ///< [m3]
   std::optional<BoxCells> boxes;  ///< where every cell is a box along the axes
   std::vector<Point> extents;     ///< of the box around each cell [m], where they are not boxes
+  std::vector<MeshPart> parts;    ///< all cells, each once, where they are not boxes
   Point min{}, max{};             ///< of all points [m]
   double resolution = 0;          ///< coordinates on disk are rounded to this [m]; 0: to doubles
   /// Patches of all ranks together; those between ranks are left out, and `start` is of the rank
@@ -92,6 +99,9 @@ CellGeometry cell_geometry(const PolyMesh& mesh);
 
 /// The mesh of the cells, boxes recognised: a cell is one if it fills the box around it: its volume
 /// is that of the box to 1e-6 and what coordinates that are rounded to `resolution` [m] can tell.
-Mesh make_mesh(CellGeometry cells, double resolution = 0);
+/// The parts are let go where all are boxes.
+Mesh make_mesh(CellGeometry cells, std::vector<MeshPart> parts = {}, double resolution = 0);
+/// The same of one part, all cells in its order.
+Mesh make_mesh(PolyMesh poly);
 
 }  // namespace bedscope::readers

@@ -132,21 +132,24 @@ std::shared_ptr<const std::vector<CloudMesh>> OpenFoamCase::Impl::cloud_meshes(
 std::shared_ptr<const RankedMesh> OpenFoamCase::Impl::read_mesh(std::size_t time) const {
   auto made = std::make_shared<RankedMesh>();
   std::vector<CellGeometry> parts(ranks);
+  std::vector<MeshPart> faces(ranks);
   std::vector<FoamPatch> patches;
   for (const auto& folder : folders) {
     for (std::size_t k = 0; k < folder.ranks; ++k) {
-      const auto poly = read_poly_mesh(mesh_opener(folder, k, time));
-      parts[folder.first_rank + k] = cell_geometry(poly);
+      auto poly = read_poly_mesh(mesh_opener(folder, k, time));
       if (folder.path != root) require_neighbours(poly.patches, ranks, folder.path);
       add_patches(poly.patches, patches);
+      if (ranks == 1) {
+        made->cells = {poly.cells};
+        made->mesh = make_mesh(std::move(poly));
+        made->mesh.patches = std::move(patches);
+        return made;
+      }
+      parts[folder.first_rank + k] = cell_geometry(poly);
+      faces[folder.first_rank + k].poly = std::make_shared<const PolyMesh>(std::move(poly));
     }
   }
   for (const auto& part : parts) made->cells.push_back(part.volumes.size());
-  if (ranks == 1) {
-    made->mesh = make_mesh(std::move(parts.front()));
-    made->mesh.patches = std::move(patches);
-    return made;
-  }
   read_addresses(time, *made);
   CellGeometry all;
   std::size_t total = 0;
@@ -165,10 +168,11 @@ std::shared_ptr<const RankedMesh> OpenFoamCase::Impl::read_mesh(std::size_t time
       put(parts[rank].volumes, all.volumes);
       put(parts[rank].low, all.low);
       put(parts[rank].high, all.high);
+      for (std::int32_t k = 0; k < run.count; ++k) faces[rank].cells.push_back(run.place + k);
       from += run.count;
     }
   }
-  made->mesh = make_mesh(std::move(all));
+  made->mesh = make_mesh(std::move(all), std::move(faces));
   made->mesh.patches = std::move(patches);
   return made;
 }

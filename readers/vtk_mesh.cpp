@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "readers/error.hpp"
 
@@ -76,7 +77,11 @@ class MeshMaker {
       if (!(cells.volumes[c] > 0) || std::isinf(cells.volumes[c]))
         throw FormatError("{}: cell {} has no volume", path_, c);
     }
-    return make_mesh(std::move(cells), resolution_);
+    std::vector<std::int32_t> order(mesh_.cells);
+    std::iota(order.begin(), order.end(), 0);
+    std::vector<MeshPart> parts;
+    parts.push_back({std::make_shared<const PolyMesh>(std::move(mesh_)), std::move(order)});
+    return make_mesh(std::move(cells), std::move(parts), resolution_);
   }
 
  private:

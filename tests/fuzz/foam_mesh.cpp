@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// polyMesh, its files the parts of one input.
+// polyMesh, its files the parts of one input, and its cells on a grid.
+#include "analysis/gas_mapping.hpp"
 #include "readers/openfoam_mesh.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
@@ -17,13 +18,17 @@ void use(std::string_view input) {
     block->next();
     return block;
   };
-  const auto poly = read_poly_mesh(open);
+  auto poly = read_poly_mesh(open);
+  const auto count = poly.cells;
   require(poly.neighbour.size() <= poly.faces(), "internal faces are faces");
-  auto geometry = cell_geometry(poly);
-  require(geometry.volumes.size() == poly.cells && geometry.centres.size() == poly.cells,
+  const auto mesh = make_mesh(std::move(poly));
+  require(mesh.volumes.size() == count && mesh.centres.size() == count,
           "a centre and a volume for each cell");
-  const auto mesh = make_mesh(std::move(geometry));
-  require(mesh.cells() == poly.cells, "cells as declared");
+  analysis::Grid grid;
+  grid.max = {0.07, 0.006, 0.1};
+  grid.cells = {3, 2, 4};
+  const analysis::GasMapping mapping(mesh, grid, {0, 1, 2});
+  require(mapping.covered().size() == grid.size(), "a volume for each cell of the grid");
   if (!mesh.boxes) return;
   for (std::size_t c = 0; c < mesh.cells(); ++c)
     for (std::size_t a = 0; a < 3; ++a) {
