@@ -16,6 +16,8 @@ constexpr double fair_ratio = 0.01;
 /// Fields that differ by more than this share of the holdup's own spread do not show the same bed;
 /// from the smaller one on it is worth a look whether a shift makes them fit.
 constexpr double fair_difference = 0.5, suspicious_difference = 0.2;
+/// A bed of the same holdup everywhere has no spread; mean differences up to this are no doubt [-].
+constexpr double fair_voidage = 1e-3;
 /// One run ends at one time on both sides, to this share of the longer one [-].
 constexpr double fair_end = 0.2;
 /// A shift is believed where it leaves less than this share of the squared difference.
@@ -85,7 +87,8 @@ void GasRun::tell_shift(const readers::Series& particles, RunResult& result) con
     rms += check.rms_difference;
     spread += check.spread;
   }
-  if (checks.empty() || rms <= suspicious_difference * spread) return;
+  const double least = fair_voidage * static_cast<double>(checks.size());
+  if (rms <= std::max(suspicious_difference * spread, least)) return;
   // Snapshots around which all shifted times are there, so that all shifts see the same ones.
   const auto furthest = std::clamp<std::ptrdiff_t>(std::ssize(times_) / 3, 1, most_shift);
   std::vector<std::size_t> snapshots;
