@@ -242,6 +242,20 @@ TEST(OpenFoamCase, RegionsHaveTheirOwnMeshAndFields) {
             std::string::npos);
 }
 
+TEST(OpenFoamCase, RegionsOfRanksAreThoseThatTheRanksHave) {
+  const Folder folder;
+  folder.copy(data / "ascii/constant/polyMesh", "constant/polyMesh");  // before splitMeshRegions
+  for (const auto* rank : {"processor0", "processor1"})
+    for (const auto* region : {"gas", "wall"}) {
+      folder.copy(data / "separate" / rank / "constant/polyMesh",
+                  fmt::format("{}/constant/{}/polyMesh", rank, region));
+      folder.copy(data / "separate" / rank / "0.003", fmt::format("{}/0.003/{}", rank, region));
+    }
+  EXPECT_EQ(openfoam_regions(folder.path()), (std::vector<std::string>{"gas", "wall"}));
+  folder.copy(data / "ascii/0.003", "0.003");  // reconstructed: there the default one is read
+  EXPECT_EQ(openfoam_regions(folder.path()), std::vector<std::string>{""});
+}
+
 TEST(OpenFoamCase, AddressesMustNameEveryCellOnce) {
   const Folder folder;
   folder.copy(data / "separate");
