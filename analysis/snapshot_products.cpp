@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <functional>
 #include <limits>
+#include <string_view>
 
 #include "readers/error.hpp"
 #include "readers/processor.hpp"
@@ -19,8 +21,46 @@ class Mapper {
   Mapper(const RunSetup& setup, const readers::Snapshot& snapshot, SnapshotProduct& out)
       : setup_(setup), columns_(snapshot.columns), rows_(snapshot.particles), out_(out) {}
 
+  /// Throws InputError where a type occurs for which the study has no radius or density.
   template <class Kernel>
-  [[gnu::flatten]] BEDSCOPE_FOR_EACH_PROCESSOR void run(const Kernel& kernel) {
+  void run(const Kernel& kernel) {
+    run_for_processor(kernel);
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+  void temperatures() {
+    const double* const temperature = data(column_temperature);
+    if (temperature == nullptr) return;
+    const auto first =
+        std::find_if(temperature, temperature + rows_, [](double t) { return std::isfinite(t); });
+    if (first == temperature + rows_) return;
+    out_.temperature_zero = *first;
+    for (std::size_t i = 0; i < rows_; ++i) {
+      if (!std::isfinite(temperature[i])) {
+        ++out_.without_temperature;
+        continue;
+      }
+      const int of = type_of(i);
+      add_temperature(i, temperature[i], slot_of({of, -1}));
+      for (std::size_t rule = 0; rule < setup_.settings.species.size(); ++rule)
+        if (setup_.settings.species[rule].holds(columns_[column_first_rule + rule][i]))
+          add_temperature(i, temperature[i], slot_of({of, static_cast<int>(rule)}));
+    }
+  }
+
+ private:
+  template <class Kernel>
+  [[gnu::flatten]] BEDSCOPE_FOR_EACH_PROCESSOR void run_for_processor(
+      const Kernel& kernel) noexcept {
+    try {
+      sum(kernel);
+    } catch (...) {
+      failure_ = std::current_exception();
+    }
+  }
+
+  template <class Kernel>
+  void sum(const Kernel& kernel) {
     const double* const x = columns_[column_lateral].data();
     const double* const y = columns_[column_depth].data();
     const double* const z = columns_[column_up].data();
@@ -97,34 +137,6 @@ class Mapper {
     out_.flaws.farthest = std::max(out_.flaws.farthest, farthest);
   }
 
-  /// Throws where a type occurs for which the study has no radius or density.
-  void complete() const {
-    if (!missing_.quantity.empty())
-      throw InputError("run \"{}\": {} has no value for type {}, which occurs in the dumps",
-                       setup_.settings.label, missing_.quantity, missing_.type);
-  }
-
-  void temperatures() {
-    const double* const temperature = data(column_temperature);
-    if (temperature == nullptr) return;
-    const auto first =
-        std::find_if(temperature, temperature + rows_, [](double t) { return std::isfinite(t); });
-    if (first == temperature + rows_) return;
-    out_.temperature_zero = *first;
-    for (std::size_t i = 0; i < rows_; ++i) {
-      if (!std::isfinite(temperature[i])) {
-        ++out_.without_temperature;
-        continue;
-      }
-      const int of = type_of(i);
-      add_temperature(i, temperature[i], slot_of({of, -1}));
-      for (std::size_t rule = 0; rule < setup_.settings.species.size(); ++rule)
-        if (setup_.settings.species[rule].holds(columns_[column_first_rule + rule][i]))
-          add_temperature(i, temperature[i], slot_of({of, static_cast<int>(rule)}));
-    }
-  }
-
- private:
   /// Sums over the particles of one type, until another type comes.
   struct Run {
     int type = std::numeric_limits<int>::min();
@@ -136,19 +148,19 @@ class Mapper {
     if (run.solids.particles > 0) slot_of({run.type, -1}).solids += run.solids;
   }
 
-  // Told by complete(): GCC 12 takes calls of functions that have clones for other processors as
-  // never throwing.
-  double radius_of(int type) {
-    const double r = setup_.settings.radius.at(type);
-    if (std::isnan(r)) missing_ = {"radius", type};
-    return r;
+  double radius_of(int type) const { return of_type(setup_.settings.radius, type, "radius"); }
+
+  double density_of(int type) const {
+    if (setup_.density_from == RunSetup::Density::unknown) return readers::unknown;
+    return of_type(setup_.density, type, "density");
   }
 
-  double density_of(int type) {
-    if (setup_.density_from == RunSetup::Density::unknown) return readers::unknown;
-    const double density = setup_.density.at(type);
-    if (std::isnan(density)) missing_ = {"density", type};
-    return density;
+  double of_type(const ByType& values, int type, std::string_view quantity) const {
+    const double value = values.at(type);
+    if (std::isnan(value))
+      throw InputError("run \"{}\": {} has no value for type {}, which occurs in the dumps",
+                       setup_.settings.label, quantity, type);
+    return value;
   }
 
   const double* data(std::size_t column) const {
@@ -223,16 +235,11 @@ class Mapper {
     q[1] += sphere_volume(r) * t;
   }
 
-  struct Missing {
-    std::string_view quantity;  // empty: nothing is
-    int type = 0;
-  };
-
   const RunSetup& setup_;
   const std::vector<std::vector<double>>& columns_;
-  Missing missing_;
   std::size_t rows_;
   SnapshotProduct& out_;
+  std::exception_ptr failure_;
 };
 
 /// Density of a slot relative to the first one's; 1 throughout where none is known.
@@ -326,7 +333,6 @@ void sum_snapshot(const RunSetup& setup, std::size_t i, SnapshotProduct& out,
   Mapper mapper(setup, scratch.snapshot, out);
   std::visit([&](const auto& kernel) { mapper.run(kernel); }, *setup.kernel);
   mapper.temperatures();
-  mapper.complete();
   const auto& ids = scratch.snapshot.columns[column_id];
   if (!ids.empty()) readers::find_doubled_ids(ids, i, scratch.marks, out.flaws);
   reduce(setup, out, scratch);

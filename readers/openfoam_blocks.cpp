@@ -40,7 +40,10 @@ bool FoamBlocks::next() {
   open_ = true;
   const bool first = blocks_++ == 0;
   const auto inner = read_header(stream_);
-  if (inner.present || first) header_ = inner;
+  if (inner.present || first)
+    header_ = inner;
+  else
+    header_.note.clear();  // of the first block's own numbers
   return true;
 }
 

@@ -152,9 +152,15 @@ std::vector<FoamFolder> find_folders(const std::string& root, Decomposition want
 std::vector<std::string> openfoam_regions(const std::string& folder) {
   std::error_code error;
   if (!fs::is_directory(folder, error)) return {};
+  // Where it will be read: the mesh that regions were split from stays in the whole case only.
+  std::vector<std::string> roots;
+  try {
+    roots.push_back(find_folders(folder, Decomposition::automatic).front().path);
+  } catch (const Error&) {  // told when the case is opened
+  }
   // The ranks have the regions of the whole case, which may have no mesh of its own.
   auto ranks = find_ranks(folder);
-  std::vector<std::string> roots{folder};
+  roots.push_back(folder);
   if (!ranks.separate.empty()) roots.push_back(ranks.separate.front().path);
   if (!ranks.collated.empty()) roots.push_back(ranks.collated.begin()->second.front().path);
   for (const auto& root : roots) {

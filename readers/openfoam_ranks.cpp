@@ -2,6 +2,7 @@
 // The meshes of the ranks, put together in the order of the whole case.
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
 #include <string_view>
 
 #include "readers/openfoam_case_impl.hpp"
@@ -62,7 +63,11 @@ void OpenFoamCase::Impl::read_addresses(std::size_t time, RankedMesh& mesh) cons
   mesh.runs.resize(ranks);
   std::vector<std::int32_t> address;
   for (const auto& folder : folders) {
-    const auto path = mesh_file(folder, time, "cellProcAddressing");
+    // That of the mesh at this time: the one of before a refinement names other cells.
+    const auto path =
+        plain_or_gz((std::filesystem::path(mesh_file(folder, time, "owner")).parent_path() /
+                     "cellProcAddressing")
+                        .string());
     if (path.empty()) continue;
     FoamBlocks file(path);
     for (std::size_t k = 0; k < folder.ranks; ++k, ++with) {

@@ -162,16 +162,16 @@ class Decoder {
     std::uint64_t block_size = 0;  // decoded [bytes]; the sizes of the compressed: block_sizes_
   };
   Header read_header(const DataArray& array, Stored& from, std::uint64_t expected);
-  std::string_view binary(const DataArray& array, std::uint64_t tuples);
+  template <class Use>
+  void binary(const DataArray& array, std::uint64_t tuples, Use&& use);
   void decode_ascii(const DataArray& array, std::uint64_t tuples, std::span<double* const> columns);
-  void spread(const DataArray& array, std::string_view bytes, std::uint64_t tuples,
+  void spread(const DataArray& array, std::string_view bytes, std::uint64_t row,
               std::span<double* const> columns) const;
-  void block(const DataArray& array, std::uint64_t index, std::string_view from,
-             std::span<char> into) const;
+  void block(const DataArray& array, std::uint64_t index, Stored& stored, std::span<char> into);
   std::uint64_t word(const DataArray& array, Stored& from);
 
   const Document& document_;
-  Buffer bytes_;  // of the array that was decoded last
+  Buffer bytes_;  // of the block that was decoded last
   Buffer block_;  // out of base64, still compressed
   std::vector<std::uint64_t> block_sizes_;
 };

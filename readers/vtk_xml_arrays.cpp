@@ -86,15 +86,16 @@ void with_type(Number type, F&& use) {
   }
 }
 
-// Raw bytes to the columns that are wanted, one component after the other.
+// Raw bytes to the columns that are wanted, from `row` on, one component after the other.
 template <class T, bool swap>
-void scatter(std::string_view bytes, std::size_t components, std::uint64_t tuples,
+void scatter(std::string_view bytes, std::size_t components, std::uint64_t row,
              std::span<double* const> columns) {
+  const std::size_t tuples = bytes.size() / (components * sizeof(T));
   for (std::size_t c = 0; c < columns.size(); ++c) {
-    double* const to = columns[c];
-    if (to == nullptr) continue;
+    if (columns[c] == nullptr) continue;
+    double* const to = columns[c] + row;
     const char* from = bytes.data() + c * sizeof(T);
-    for (std::uint64_t i = 0; i < tuples; ++i, from += components * sizeof(T)) {
+    for (std::size_t i = 0; i < tuples; ++i, from += components * sizeof(T)) {
       T value;
       std::memcpy(&value, from, sizeof(T));
       if constexpr (swap) value = swapped(value);
@@ -207,16 +208,17 @@ void Decoder::decode(const DataArray& array, std::uint64_t tuples,
   if (array.storage == Storage::ascii) {
     decode_ascii(array, tuples, columns);
   } else {
-    spread(array, binary(array, tuples), tuples, columns);
+    binary(array, tuples,
+           [&](std::string_view bytes, std::uint64_t row) { spread(array, bytes, row, columns); });
   }
 }
 
-void Decoder::spread(const DataArray& array, std::string_view bytes, std::uint64_t tuples,
+void Decoder::spread(const DataArray& array, std::string_view bytes, std::uint64_t row,
                      std::span<double* const> columns) const {
   with_type(array.type, [&](auto type) {
     using T = decltype(type);
-    document_.swap ? scatter<T, true>(bytes, array.components, tuples, columns)
-                   : scatter<T, false>(bytes, array.components, tuples, columns);
+    document_.swap ? scatter<T, true>(bytes, array.components, row, columns)
+                   : scatter<T, false>(bytes, array.components, row, columns);
   });
 }
 
@@ -257,11 +259,19 @@ void Decoder::decode_ascii(const DataArray& array, std::uint64_t tuples,
 void Decoder::decode(const DataArray& array, std::uint64_t tuples, std::vector<double>& into) {
   if (array.components != 1) fail(array, "expected 1 component, found {}", array.components);
   bound(array, tuples);
-  const bool ascii = array.storage == Storage::ascii;
-  const std::string_view bytes = ascii ? std::string_view() : binary(array, tuples);
-  into.resize(tuples);
-  double* const column = into.data();
-  ascii ? decode_ascii(array, tuples, {&column, 1}) : spread(array, bytes, tuples, {&column, 1});
+  into.clear();
+  if (array.storage == Storage::ascii) {
+    into.resize(tuples);
+    double* const column = into.data();
+    decode_ascii(array, tuples, {&column, 1});
+    return;
+  }
+  // Grows with what is really there: the bound of compressed blocks is a generous one.
+  binary(array, tuples, [&](std::string_view bytes, std::uint64_t row) {
+    into.resize(row + bytes.size() / size_of(array.type));
+    double* const column = into.data();
+    spread(array, bytes, row, {&column, 1});
+  });
 }
 
 std::uint64_t Decoder::word(const DataArray& array, Stored& from) {
@@ -322,36 +332,52 @@ Decoder::Header Decoder::read_header(const DataArray& array, Stored& from, std::
   return {size};
 }
 
-// The bytes of an array in the order of the file; valid until the next call.
-std::string_view Decoder::binary(const DataArray& array, std::uint64_t tuples) {
+// Hands the bytes of an array over, whole tuples and the row of the first, in the order of the
+// file: a block or a piece at a time, which is still in the cache then.
+template <class Use>
+void Decoder::binary(const DataArray& array, std::uint64_t tuples, Use&& use) {
   const std::uint64_t expected = checked_size(array, tuples);
-  if (expected == 0) return {};
+  if (expected == 0) return;
+  const std::uint64_t tuple = expected / tuples;
   Stored from = stored(array);
   const Header header = read_header(array, from, expected);
   if (document_.compressor == Compressor::none) {
-    const std::string_view bytes = from.take(expected, bytes_);
-    if (bytes.size() < expected) {
-      fail(array, "{}: header says {} bytes, {} decoded", from.reason(), expected, bytes.size());
+    const std::uint64_t piece = std::max<std::uint64_t>(1, (1U << 15) / tuple) * tuple;
+    for (std::uint64_t done = 0; done < expected;) {
+      const std::uint64_t size = std::min(piece, expected - done);
+      const std::string_view bytes = from.take(size, bytes_);
+      if (bytes.size() < size) {
+        fail(array, "{}: header says {} bytes, {} decoded", from.reason(), expected,
+             done + bytes.size());
+      }
+      use(bytes, done / tuple);
+      done += size;
     }
-    return bytes;
+    return;
   }
-  char* const decoded = bytes_.reserve(expected);
+  const std::uint64_t size = std::min(header.block_size, expected);
+  char* const decoded = bytes_.reserve(size + tuple);
+  std::uint64_t begun = 0;  // bytes of a tuple that the block before ends in
   std::uint64_t done = 0;
   for (std::size_t i = 0; i < block_sizes_.size(); ++i) {
-    const std::string_view packed = from.take(block_sizes_[i], block_);
-    if (packed.size() < block_sizes_[i]) {
-      fail(array, "block {} of {}: {}: header says {} bytes, {} decoded", i + 1,
-           block_sizes_.size(), from.reason(), block_sizes_[i], packed.size());
-    }
-    const std::uint64_t length = std::min(header.block_size, expected - done);
-    block(array, i, packed, {decoded + done, length});
+    const std::uint64_t length = std::min(size, expected - done);
+    block(array, i, from, {decoded + begun, length});
+    const std::uint64_t there = begun + length;
+    const std::uint64_t row = (done - begun) / tuple;
+    begun = there % tuple;
+    use(std::string_view(decoded, there - begun), row);
+    std::memmove(decoded, decoded + there - begun, begun);
     done += length;
   }
-  return {decoded, expected};
 }
 
-void Decoder::block(const DataArray& array, std::uint64_t index, std::string_view from,
-                    std::span<char> into) const {
+void Decoder::block(const DataArray& array, std::uint64_t index, Stored& stored,
+                    std::span<char> into) {
+  const std::string_view from = stored.take(block_sizes_[index], block_);
+  if (from.size() < block_sizes_[index]) {
+    fail(array, "block {} of {}: {}: header says {} bytes, {} decoded", index + 1,
+         block_sizes_.size(), stored.reason(), block_sizes_[index], from.size());
+  }
   constexpr std::uint64_t most = std::numeric_limits<int>::max();  // LZ4 counts in int
   std::uint64_t got = 0;
   bool good = from.size() <= most && into.size() <= most;

@@ -134,7 +134,7 @@ class Damage : public testing::TestWithParam<Fixture> {
     EXPECT_LT(outcomes.slowest, std::chrono::seconds(2));
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
-#if !defined(__SANITIZE_ADDRESS__)
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
     EXPECT_LT(usage.ru_maxrss, 100 * 1024) << "kB";
 #endif
   }

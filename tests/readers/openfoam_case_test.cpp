@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "openfoam_samples.hpp"
+#include "readers/openfoam_field.hpp"
 
 namespace bedscope::readers {
 namespace {
@@ -241,6 +242,20 @@ TEST(OpenFoamCase, RegionsHaveTheirOwnMeshAndFields) {
             std::string::npos);
 }
 
+TEST(OpenFoamCase, RegionsOfRanksAreThoseThatTheRanksHave) {
+  const Folder folder;
+  folder.copy(data / "ascii/constant/polyMesh", "constant/polyMesh");  // before splitMeshRegions
+  for (const auto* rank : {"processor0", "processor1"})
+    for (const auto* region : {"gas", "wall"}) {
+      folder.copy(data / "separate" / rank / "constant/polyMesh",
+                  fmt::format("{}/constant/{}/polyMesh", rank, region));
+      folder.copy(data / "separate" / rank / "0.003", fmt::format("{}/0.003/{}", rank, region));
+    }
+  EXPECT_EQ(openfoam_regions(folder.path()), (std::vector<std::string>{"gas", "wall"}));
+  folder.copy(data / "ascii/0.003", "0.003");  // reconstructed: there the default one is read
+  EXPECT_EQ(openfoam_regions(folder.path()), std::vector<std::string>{""});
+}
+
 TEST(OpenFoamCase, AddressesMustNameEveryCellOnce) {
   const Folder folder;
   folder.copy(data / "separate");
@@ -270,6 +285,64 @@ TEST(OpenFoamCase, MeshMovesWhereTimesHavePoints) {
   EXPECT_EQ(foam.mesh_at(0)->volume(), foam.mesh().volume());
   EXPECT_NEAR(foam.mesh_at(1)->volume(), foam.mesh().volume() * 25 / 15, 1e-15);  // rounding
   EXPECT_EQ(read(foam, "p", 1).values.size(), 200U);
+}
+
+// A mesh that was refined at 0.004, by 100 cells and in one rank only. No cellProcAddressing is
+// written then, and that of constant/ is of the mesh before.
+class RefinedInRanks : public ::testing::Test {
+ protected:
+  RefinedInRanks() {
+    for (const auto* rank : {"processor0", "processor1"}) {
+      folder.copy(data / "separate" / rank, fmt::format("separate/{}", rank));
+      const auto from =
+          rank == std::string_view("processor0") ? data / "whole" : data / "separate" / rank;
+      folder.copy(from / "0.003", fmt::format("separate/{}/0.004", rank));
+      for (const auto* name : {"points", "faces", "owner", "neighbour", "boundary"})
+        folder.write(fmt::format("separate/{}/0.004/polyMesh/{}", rank, name),
+                     bytes_of(from / "constant/polyMesh" / name));
+    }
+  }
+  static void expect_refined(const OpenFoamCase& foam) {
+    EXPECT_EQ(foam.mesh_at(0)->cells(), 200U);
+    EXPECT_EQ(foam.mesh_at(1)->cells(), 300U);
+    const auto whole = OpenFoamCase::open((data / "whole").string());
+    auto expected = read(whole, "p", 0).values;
+    EXPECT_EQ(read(foam, "p", 0).values, expected);
+    const auto* const path = "processor1/0.003/p";
+    FoamBlocks file((data / "separate" / path).string());
+    FieldValues of_rank;
+    ASSERT_TRUE(file.next());
+    read_field(file, FoamCount{100}, of_rank);
+    expected.insert(expected.end(), of_rank.values.begin(), of_rank.values.end());
+    EXPECT_EQ(read(foam, "p", 1).values, expected);  // rank after rank
+  }
+  Folder folder;
+};
+
+TEST_F(RefinedInRanks, HasNoAddressesAnyMore) {
+  expect_refined(OpenFoamCase::open(folder.path("separate")));
+}
+
+TEST_F(RefinedInRanks, CollatedBlocksHaveEachTheirNumberOfCells) {
+  // The header, with the number of cells of rank 0 in its note, stands in the first block only.
+  const auto body = [](const std::string& file) {
+    const auto begin = file.find("FoamFile");
+    return begin == std::string::npos ? file : file.substr(file.find('}', begin) + 1);
+  };
+  const fs::path root = folder.path("separate/processor0");
+  for (const auto& entry : fs::recursive_directory_iterator(root)) {
+    if (!entry.is_regular_file()) continue;
+    const auto name = fs::relative(entry.path(), root).string();
+    const auto first = bytes_of(entry.path());
+    const auto second = body(bytes_of(folder.path("separate/processor1/" + name)));
+    folder.write("collated/processors2/" + name,
+                 header("decomposedBlockData", "binary") +
+                     fmt::format("\n// Processor0\n\n{}\n({})\n\n// Processor1\n\n{}\n({})\n",
+                                 first.size(), first, second.size(), second));
+  }
+  for (const auto* time : {"0.003", "0.004"})
+    fs::remove_all(folder.path(fmt::format("collated/processors2/{}/uniform", time)));
+  expect_refined(OpenFoamCase::open(folder.path("collated")));
 }
 
 TEST(OpenFoamCase, ThreadsMayReadAtTheSameTime) {

@@ -96,6 +96,23 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return at == std::string::npos ? text : text.replace(at, from.size(), to);
 }
 
+// In base64, the slow way, bit by bit.
+std::string encoded(const std::string& bytes) {
+  const std::string alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  const std::size_t bits = 8 * bytes.size();
+  for (std::size_t at = 0; at < bits; at += 6) {
+    unsigned value = 0;
+    for (std::size_t bit = at; bit < at + 6; ++bit) {
+      const unsigned byte = bit < bits ? static_cast<unsigned char>(bytes[bit / 8]) : 0;
+      value = 2 * value + (byte >> (7 - bit % 8) & 1);
+    }
+    text += alphabet[value];
+  }
+  while (text.size() % 4 != 0) text += '=';
+  return text;
+}
+
 // GCC 12.2 at -O2 drops the rounding of neighbouring static_cast<float>; volatile keeps it.
 double as_float32(double value) {
   volatile auto rounded = static_cast<float>(value);
@@ -435,6 +452,52 @@ TEST(VtkXml, CountsInHeadersAreBoundedBeforeMemoryIsReserved) {
   EXPECT_NE(scan_error(with_blocks({}, 1)).find("offset 0 beyond"), std::string::npos);
 }
 
+// 24 bytes a tuple, so that blocks of 8, 40 and 1000 end within one, and blocks of 4 within a
+// number; without a compressor, base64 is read in pieces, which no block ends.
+TEST(VtkXml, TuplesThatBlocksCutAreWhole) {
+  constexpr std::size_t points = 3000;
+  std::vector<double> values(3 * points);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = std::sin(static_cast<double>(i));
+  const std::string bytes(reinterpret_cast<const char*>(values.data()), 8 * values.size());
+  for (const std::size_t size : {0U, 4U, 8U, 40U, 1000U, 71999U}) {
+    std::vector<std::uint32_t> header;
+    std::string packed;
+    const std::size_t last = size == 0 ? 0 : bytes.size() % size;
+    if (size == 0) {
+      header.push_back(static_cast<std::uint32_t>(bytes.size()));
+      packed = bytes;
+    } else {
+      for (const std::size_t word : {bytes.size() / size + (last > 0), size, last})
+        header.push_back(static_cast<std::uint32_t>(word));
+    }
+    for (std::size_t at = 0; size > 0 && at < bytes.size(); at += size) {
+      const std::string block = bytes.substr(at, size);
+      uLongf length = compressBound(block.size());
+      std::string room(length, '\0');
+      ASSERT_EQ(compress(reinterpret_cast<Bytef*>(room.data()), &length,
+                         reinterpret_cast<const Bytef*>(block.data()), block.size()),
+                Z_OK);
+      header.push_back(static_cast<std::uint32_t>(length));
+      packed += room.substr(0, length);
+    }
+    const std::string head(reinterpret_cast<const char*>(header.data()), 4 * header.size());
+    for (const bool raw : {true, false}) {
+      SCOPED_TRACE(fmt::format("blocks of {} bytes, {}", size, raw ? "raw" : "base64"));
+      const auto text = fmt::format(
+          "<VTKFile type='PolyData'{}><PolyData><Piece NumberOfPoints='{}'><Points>"
+          "<DataArray type='Float64' NumberOfComponents='3' format='{}' offset='0'>{}</DataArray>"
+          "</Points></Piece></PolyData>{}</VTKFile>",
+          size > 0 ? " compressor='vtkZLibDataCompressor'" : "", points,
+          raw ? "appended" : "binary", raw ? "" : encoded(head) + encoded(packed),
+          raw ? "<AppendedData encoding='raw'>_" + head + packed + "</AppendedData>" : "");
+      const Snapshot snapshot = read_text(text, {"x", "y", "z"});
+      ASSERT_EQ(snapshot.particles, points);
+      for (std::size_t i = 0; i < values.size(); ++i)
+        ASSERT_EQ(snapshot.columns[i % 3][i / 3], values[i]) << i;
+    }
+  }
+}
+
 TEST(VtkXml, ConnectivityIsCheckedAgainstThePoints) {
   const auto with_verts = [](const std::string& connectivity) {
     return replaced(replaced(small_file("1 2"), "Points=\"2\"", "Points=\"2\" NumberOfVerts=\"2\""),
@@ -525,22 +588,6 @@ TEST(VtkXml, DamagedBytesNeverCrashTheReader) {
 }
 
 // ---- Base64
-
-std::string encoded(const std::string& bytes) {  // the slow way, bit by bit
-  const std::string alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  const std::size_t bits = 8 * bytes.size();
-  for (std::size_t at = 0; at < bits; at += 6) {
-    unsigned value = 0;
-    for (std::size_t bit = at; bit < at + 6; ++bit) {
-      const unsigned byte = bit < bits ? static_cast<unsigned char>(bytes[bit / 8]) : 0;
-      value = 2 * value + (byte >> (7 - bit % 8) & 1);
-    }
-    text += alphabet[value];
-  }
-  while (text.size() % 4 != 0) text += '=';
-  return text;
-}
 
 TEST(Base64, EveryLengthInEveryPieceComesBack) {
   std::string bytes;
