@@ -113,10 +113,24 @@ void show(const validation::NamedTheory& theory) {
   line("or also", fmt::format("{}", fmt::join(theory.optional, ", ")));
 }
 
+/// As a file of curves: what is printed can be read again.
 void show_points(const Curve& curve) {
-  fmt::print("{0},{0}_u,{1},{1}_u\n", curve.x.text(), curve.y.text());
-  for (const auto& point : curve.points)
-    fmt::print("{},{:.3g},{},{:.3g}\n", point.x, point.u_x, point.y, point.u_y);
+  constexpr double coverage_factor = 1.96;
+  const bool bars = std::any_of(curve.points.begin(), curve.points.end(),
+                                [](const auto& point) { return point.down() != point.up(); });
+  const auto title = [](const validation::Title& of, const char* suffix) {
+    return validation::Title{of.name + suffix, of.unit}.text();
+  };
+  fmt::print("{},{},{},{}\n", curve.x.text(), title(curve.x, "_u"), curve.y.text(),
+             bars ? title(curve.y, "_lo") + "," + title(curve.y, "_hi") : title(curve.y, "_u"));
+  for (const auto& point : curve.points) {
+    fmt::print("{},{:.3g},{},", point.x, point.u_x, point.y);
+    if (bars)
+      fmt::print("{:.6g},{:.6g}\n", point.y - coverage_factor * point.down(),
+                 point.y + coverage_factor * point.up());
+    else
+      fmt::print("{:.3g}\n", point.up());
+  }
   for (const auto& assumption : curve.assumptions) fmt::print("# {}\n", assumption);
 }
 

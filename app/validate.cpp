@@ -106,13 +106,14 @@ void write_all(const Study& study, const std::vector<RunResult>& results,
   analysis::write_tables(results, folder / "tables");
   report::write_validation_page(report, folder);
   analysis::write_file(folder / "junit.xml", report::junit_text(verdicts, study.title));
-  analysis::write_file(folder / "summary.md", report::markdown_text(verdicts, study.title));
+  analysis::write_file(folder / "summary.md",
+                       report::markdown_text(results, verdicts, study.title));
   analysis::write_file(folder / "summary.json", report::summary_with_checks(results, verdicts));
   output.commit();
 }
 
 /// Each assumption is told once, however many checks rest on it.
-void tell(const std::vector<Verdict>& verdicts) {
+void tell(const std::vector<RunResult>& results, const std::vector<Verdict>& verdicts) {
   std::set<std::string> assumptions;
   for (const auto& verdict : verdicts) {
     fmt::print("{:<14} {}: {}\n", name_of(verdict.outcome), report::check_key(verdict),
@@ -120,6 +121,8 @@ void tell(const std::vector<Verdict>& verdicts) {
     assumptions.insert(verdict.assumptions.begin(), verdict.assumptions.end());
   }
   for (const auto& assumption : assumptions) fmt::print("assumed: {}\n", assumption);
+  for (const auto& result : results)
+    for (const auto& problem : result.problems) fmt::print("note: {}: {}\n", result.label, problem);
 }
 
 int code_of(const std::vector<Verdict>& verdicts, const Options& options) {
@@ -147,7 +150,7 @@ int run(const Options& options) {
   if (options.common.json)
     fmt::print("{}", report::summary_with_checks(results, verdicts));
   else if (!options.common.quiet)
-    tell(verdicts);
+    tell(results, verdicts);
   return code_of(verdicts, options);
 }
 

@@ -47,13 +47,17 @@ std::vector<validation::CurvePoint> shown_reference(const Verdict& verdict) {
   std::vector<validation::CurvePoint> points;
   for (const auto& point : verdict.comparison.points)
     points.push_back({point.x, point.reference, 0, point.u_reference});
-  points.insert(points.end(), verdict.comparison.outside.begin(), verdict.comparison.outside.end());
+  for (const auto* more : {&verdict.comparison.outside, &verdict.comparison.without_error})
+    points.insert(points.end(), more->begin(), more->end());
   return points;
 }
 
-bool is_outside(const Verdict& verdict, double x) {
-  return std::any_of(verdict.comparison.outside.begin(), verdict.comparison.outside.end(),
-                     [&](const auto& point) { return point.x == x; });
+bool is_left_out(const Verdict& verdict, double x) {
+  const auto at_x = [&](const auto& point) { return point.x == x; };
+  const auto& [outside, vague] =
+      std::pair(std::span(verdict.comparison.outside), std::span(verdict.comparison.without_error));
+  return std::any_of(outside.begin(), outside.end(), at_x) ||
+         std::any_of(vague.begin(), vague.end(), at_x);
 }
 
 /// Ranges of both panels and what stands under their axes.
@@ -67,8 +71,8 @@ Layout layout_of(const Verdict& verdict, std::span<const Estimate> result, bool 
   for (const double at : verdict.result.at) x.add(at);
   for (const auto& point : shown_reference(verdict)) {
     x.add(point.x);
-    y.add(point.y - coverage_factor * point.u_y);
-    y.add(point.y + coverage_factor * point.u_y);
+    y.add(point.y - coverage_factor * point.down());
+    y.add(point.y + coverage_factor * point.up());
   }
   add_estimates(y, result);
   if (y.lo > 0 && y.lo < 0.4 * y.hi) y.lo = 0;
@@ -129,8 +133,9 @@ void draw_main(Canvas& canvas, const Verdict& verdict, const Layout& layout,
   std::string points, outside;
   for (const auto& point : reference) {
     x.push_back(layout.x_factor * point.x);
-    bars.push_back({point.y, coverage_factor * point.u_y});
-    (is_outside(verdict, point.x) ? outside : points) +=
+    bars.push_back({point.y + coverage_factor * (point.up() - point.down()) / 2,  // its middle
+                    coverage_factor * (point.up() + point.down()) / 2});
+    (is_left_out(verdict, point.x) ? outside : points) +=
         data_row({x.back(), point.y, bars.back().ci95});
   }
   const double cap = bar_cap * (layout.main.x.hi - layout.main.x.lo) / layout.main.width;
@@ -143,7 +148,7 @@ void draw_main(Canvas& canvas, const Verdict& verdict, const Layout& layout,
                                      fmt::format("using 1:2 with points {}", style)));
   };
   add_points("reference: x, value, ci95", points, data_style);
-  add_points("reference outside the result: x, value, ci95", outside, outside_style);
+  add_points("reference not compared: x, value, ci95", outside, outside_style);
   canvas.draw(layers);
 }
 
@@ -170,13 +175,18 @@ void draw_errors(Canvas& canvas, const Verdict& verdict, const Layout& layout) {
 std::string place_words(const Verdict& verdict) {
   std::string text = verdict.run + ": " + verdict.check.place.quantity;
   for (const auto& [key, value] : verdict.check.place.at)
-    text += fmt::format(", {} {}", key, value);
+    text += fmt::format(", {} {}{}", key, value, unit_of_place(key));
   if (verdict.check.place.species != "all")
     text += ", " + species_title(verdict.check.place.species);
   return text;
 }
 
 }  // namespace
+
+std::string_view unit_of_place(std::string_view key) {
+  if (key == "height" || key == "x") return " m";
+  return key == "time" ? " s" : "";
+}
 
 Figure check_figure(const Verdict& judged, const std::string& name) {
   const auto title = place_words(judged);
@@ -188,8 +198,9 @@ Figure check_figure(const Verdict& judged, const std::string& name) {
   std::vector<LegendEntry> entries;
   if (!verdict.reference.points.empty())
     entries.push_back({"", data_style, verdict.reference.name});
-  if (!verdict.comparison.outside.empty())
-    entries.push_back({"", outside_style, "outside the result, not compared"});
+  if (!verdict.comparison.outside.empty() || !verdict.comparison.without_error.empty())
+    entries.push_back(
+        {"", outside_style, "not compared: outside the result, or it has no interval"});
   entries.push_back({fmt::format("lc rgb '{}' lw 1.3", result_colour), "", verdict.run});
   const double legend = Canvas::legend_height(entries, width - left) + 1;
   Canvas canvas(width, layout.main.bottom + main_height + 2 + legend);

@@ -36,7 +36,7 @@ std::string badge(Outcome outcome) {
 std::string where(const Verdict& verdict) {
   std::string text = verdict.check.place.quantity;
   for (const auto& [key, value] : verdict.check.place.at)
-    text += fmt::format(", {} {}", key, value);
+    text += fmt::format(", {} {}{}", key, value, unit_of_place(key));
   if (verdict.check.place.species != "all") text += ", " + verdict.check.place.species;
   return text;
 }
@@ -84,6 +84,7 @@ std::string history_of(const Verdict& verdict, const ValidationReport& report) {
 constexpr std::string_view own_style = R"(<style>
   .checks td, .checks th { text-align: left; white-space: normal; overflow-wrap: anywhere; min-width: 0; }
   .checks .number, .checks th:first-child { white-space: nowrap; }
+  .checks .metric { overflow-wrap: normal; }
   section p { margin: .2rem 0; }
   section .note { font-size: .82rem; }
   @media print {
@@ -93,6 +94,7 @@ constexpr std::string_view own_style = R"(<style>
     section, figcaption { font-size: 9pt; }
     section .note, figcaption { font-size: 7.5pt; line-height: 1.3; margin: 0; }
     figure img { max-height: 74mm; width: auto !important; }
+    #origins { break-inside: auto; }
     pre { columns: 2; }
   }
 </style>
@@ -111,7 +113,7 @@ std::string table_of(const ValidationReport& report) {
     const bool skipped = v.outcome == Outcome::skipped;
     table += fmt::format(
         "<tr><td>{}</td><th scope=\"row\"><a href=\"#check{}\">{}</a></th><td>{}</td><td>{}</td>"
-        "<td>{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td>"
+        "<td class=\"metric\">{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td>"
         "<td class=\"number\">{} {}</td>",
         badge(v.outcome), k + 1, escaped(where(v)), escaped(v.run),
         escaped(v.reference.name.empty() ? "–" : v.reference.name), escaped(v.check.metric),
@@ -122,6 +124,16 @@ std::string table_of(const ValidationReport& report) {
     table += "</tr>\n";
   }
   return table + "</tbody></table></div>\n";
+}
+
+/// What the analysis has to say of the runs themselves: drift, too few samples, what was left out.
+std::string problems_of(std::span<const analysis::RunResult> runs) {
+  std::string list;
+  for (const auto& run : runs)
+    for (const auto& problem : run.problems)
+      list += fmt::format("<li>{}: {}</li>\n", escaped(run.label), escaped(problem));
+  if (list.empty()) return list;
+  return "<div class=\"problems\"><p>The runs</p><ul>\n" + list + "</ul></div>\n";
 }
 
 std::string counts_of(std::span<const Verdict> verdicts) {
@@ -256,7 +268,7 @@ void write_validation_page(const ValidationReport& report, const fs::path& folde
 
   auto page = page_head(report.title);
   page += own_style;
-  page += counts_of(report.verdicts) + table_of(report);
+  page += counts_of(report.verdicts) + table_of(report) + problems_of(report.runs);
   if (!report.earlier_name.empty())
     page += "<p class=\"note\">Before: " + escaped(report.earlier_name) + ".</p>\n";
   for (const auto& panel : panels) page += section_of(report, panel, pictures);

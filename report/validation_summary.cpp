@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "analysis/summary.hpp"
@@ -29,14 +30,22 @@ std::string title_of(const Verdict& verdict) {
   return text;
 }
 
+/// Escaped, and without the control characters that no XML may hold.
+std::string in_xml(std::string text) {
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t') c = '?';
+  return escaped(text);
+}
+
 std::size_t count(std::span<const Verdict> verdicts, Outcome outcome) {
   return static_cast<std::size_t>(
       std::count_if(verdicts.begin(), verdicts.end(),
                     [&](const Verdict& verdict) { return verdict.outcome == outcome; }));
 }
 
-std::string assumed(const Verdict& verdict) {
-  std::string text;
+/// The whole story of a check: GitLab shows the text of an element and not its message.
+std::string story_of(const Verdict& verdict) {
+  std::string text = verdict.reason + "\n";
   for (const auto& assumption : verdict.assumptions) text += "assumed: " + assumption + "\n";
   return text;
 }
@@ -83,29 +92,35 @@ Json check_json(const Verdict& verdict) {
 std::string check_key(const Verdict& verdict) { return verdict.run + ": " + title_of(verdict); }
 
 std::string junit_text(std::span<const Verdict> verdicts, const std::string& title) {
+  const auto counts =
+      fmt::format("tests=\"{}\" failures=\"{}\" errors=\"0\" skipped=\"{}\"", verdicts.size(),
+                  count(verdicts, Outcome::does_not_hold),
+                  count(verdicts, Outcome::undecided) + count(verdicts, Outcome::skipped));
   std::string text = fmt::format(
-      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"{0}\">\n<testsuite "
-      "name=\"{0}\" tests=\"{1}\" failures=\"{2}\" errors=\"0\" skipped=\"{3}\">\n",
-      escaped(title), verdicts.size(), count(verdicts, Outcome::does_not_hold),
-      count(verdicts, Outcome::undecided) + count(verdicts, Outcome::skipped));
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"{0}\" {1}>\n<testsuite "
+      "name=\"{0}\" {1}>\n",
+      in_xml(title), counts);
+  std::map<std::string, int> seen;  // two checks of one name would be taken for one
   for (const auto& verdict : verdicts) {
-    text += fmt::format("<testcase classname=\"{}\" name=\"{}\">", escaped(verdict.run),
-                        escaped(title_of(verdict)));
+    const int times = ++seen[check_key(verdict)];
+    text += fmt::format("<testcase classname=\"{}\" name=\"{}{}\">", in_xml(verdict.run),
+                        in_xml(title_of(verdict)), times > 1 ? fmt::format(" ({})", times) : "");
+    const auto reason = in_xml(one_line(verdict.reason)), story = in_xml(story_of(verdict));
     if (verdict.outcome == Outcome::does_not_hold)
-      text += fmt::format("<failure message=\"{}\" type=\"does not hold\">{}</failure>",
-                          escaped(verdict.reason), escaped(assumed(verdict)));
+      text +=
+          fmt::format("<failure message=\"{}\" type=\"does not hold\">{}</failure>", reason, story);
     if (verdict.outcome == Outcome::undecided || verdict.outcome == Outcome::skipped)
-      text += fmt::format("<skipped message=\"{}: {}\"/>", name_of(verdict.outcome),
-                          escaped(verdict.reason));
+      text += fmt::format("<skipped message=\"{0}: {1}\">{0}: {2}</skipped>",
+                          name_of(verdict.outcome), reason, story);
     if (verdict.outcome == Outcome::holds)
-      text += fmt::format("<system-out>{}\n{}</system-out>", escaped(verdict.reason),
-                          escaped(assumed(verdict)));
+      text += fmt::format("<system-out>{}</system-out>", story);
     text += "</testcase>\n";
   }
   return text + "</testsuite>\n</testsuites>\n";
 }
 
-std::string markdown_text(std::span<const Verdict> verdicts, const std::string& title) {
+std::string markdown_text(std::span<const analysis::RunResult> runs,
+                          std::span<const Verdict> verdicts, const std::string& title) {
   std::string text = fmt::format(
       "## {}\n\n{} checks: {} hold, {} do not hold, {} undecided, {} skipped\n\n"
       "| verdict | run | check | why |\n|---|---|---|---|\n",
@@ -120,6 +135,10 @@ std::string markdown_text(std::span<const Verdict> verdicts, const std::string& 
                             outcome == Outcome::holds ? std::string("holds")
                                                       : fmt::format("**{}**", name_of(outcome)),
                             cell(verdict.run), cell(title_of(verdict)), cell(verdict.reason));
+  text += "\n";
+  for (const auto& run : runs)
+    for (const auto& problem : run.problems)
+      text += fmt::format("- {}: {}\n", cell(run.label), cell(problem));
   return text;
 }
 

@@ -17,8 +17,9 @@ namespace bedscope::report {
 /// A test case a check: does not hold is a failure, undecided and skipped are skipped.
 std::string junit_text(std::span<const validation::Verdict> verdicts, const std::string& title);
 
-/// A table with one row a check, worst first.
-std::string markdown_text(std::span<const validation::Verdict> verdicts, const std::string& title);
+/// A table with one row a check, worst first, and what the analysis has to say of the runs.
+std::string markdown_text(std::span<const analysis::RunResult> runs,
+                          std::span<const validation::Verdict> verdicts, const std::string& title);
 
 /// summary.json of the analysis with its list `checks` filled.
 std::string summary_with_checks(std::span<const analysis::RunResult> runs,

@@ -36,26 +36,40 @@ double polynomial(const Sampled& curve, std::size_t first, std::size_t count, do
   return sum;
 }
 
+/// At a share of the way from a to b; at an end the other one does not count, nan as it may be.
+double between(double a, double b, double share) {
+  if (share <= 0) return a;
+  return share < 1 ? (1 - share) * a + share * b : b;
+}
+
+/// The reference's errors at its point, where the result has this slope.
+void set_reference_errors(const CurvePoint& reference, double slope, ComparedPoint& point) {
+  const bool above = point.result >= reference.y;
+  point.u_reference = std::hypot(above ? reference.up() : reference.down(), slope * reference.u_x);
+  point.u_reference_away =
+      std::hypot(above ? reference.down() : reference.up(), slope * reference.u_x);
+}
+
 ComparedPoint at_reference(const Sampled& result, const CurvePoint& reference) {
   ComparedPoint point{.x = reference.x, .reference = reference.y};
   if (result.at.size() == 1) {
     point.result = result.value[0];
     point.u_result = result.u[0];
-    point.u_reference = reference.u_y;
+    set_reference_errors(reference, 0, point);
     return point;
   }
   const auto above = std::upper_bound(result.at.begin() + 1, result.at.end() - 1, reference.x);
   const auto k = static_cast<std::size_t>(above - result.at.begin());
   const double width = result.at[k] - result.at[k - 1];
   const double share = (reference.x - result.at[k - 1]) / width;
-  point.result = result.value[k - 1] + share * (result.value[k] - result.value[k - 1]);
+  point.result = between(result.value[k - 1], result.value[k], share);
   // Neighbours in a profile err together, so that their errors do not average out.
-  point.u_result = (1 - share) * result.u[k - 1] + share * result.u[k];
+  point.u_result = between(result.u[k - 1], result.u[k], share);
   const std::size_t count = std::min<std::size_t>(4, result.at.size());
   const std::size_t first = std::min(k < 2 ? 0 : k - 2, result.at.size() - count);
   point.u_interpolation = std::abs(polynomial(result, first, count, reference.x) - point.result);
   const double slope = (result.value[k] - result.value[k - 1]) / width;
-  point.u_reference = std::hypot(reference.u_y, slope * reference.u_x);
+  set_reference_errors(reference, slope, point);
   return point;
 }
 
@@ -63,10 +77,15 @@ void match(const Sampled& result, const std::vector<CurvePoint>& reference, Comp
   for (const auto& point : reference) {
     const bool reached =
         result.is_scalar || (point.x >= result.at.front() && point.x <= result.at.back());
-    if (reached)
-      found.points.push_back(at_reference(result, point));
-    else
+    if (!reached) {
       found.outside.push_back(point);
+      continue;
+    }
+    const auto compared = at_reference(result, point);
+    if (std::isfinite(compared.u_result))
+      found.points.push_back(compared);
+    else
+      found.without_error.push_back(point);
   }
 }
 
@@ -83,7 +102,16 @@ std::vector<CurvePoint> turned(const Sampled& result, std::vector<CurvePoint> po
   return points;
 }
 
+/// The errors of averages over the same snapshots are the same, and drop out of their difference.
+void drop_common_errors(std::vector<ComparedPoint>& points) {
+  for (auto& point : points) point.u_result = point.u_reference = point.u_reference_away = 0;
+}
+
 }  // namespace
+
+double ComparedPoint::u_reference_mean() const {
+  return std::sqrt((u_reference * u_reference + away() * away()) / 2);
+}
 
 double ComparedPoint::u_validation() const {
   return std::sqrt(u_result * u_result + u_interpolation * u_interpolation +
@@ -103,6 +131,7 @@ Comparison compare(const Sampled& all, const Curve& reference, std::size_t least
     Comparison other = found;
     other.points.clear();
     other.outside.clear();
+    other.without_error.clear();
     match(result, turned(result, reference.points), other);
     if (other.points.size() >= found.points.size() &&
         sum_of_squares(other) < sum_of_squares(found)) {
@@ -112,11 +141,15 @@ Comparison compare(const Sampled& all, const Curve& reference, std::size_t least
   }
   if (found.points.size() < std::max<std::size_t>(least, 1)) {
     if (result.at.empty()) throw InputError("{}: the run has no {}", reference.name, all.y.text());
+    if (!found.without_error.empty())
+      throw InputError("{}: the run's {} has an interval at none of the points to compare",
+                       reference.name, all.y.text());
     throw InputError(
         "{}: outside the result: {} from {:.4g} to {:.4g}, the run's from {:.4g} to {:.4g}",
         reference.name, reference.x.text(), reference.points.front().x, reference.points.back().x,
         result.at.front(), result.at.back());
   }
+  if (reference.of_same_snapshots) drop_common_errors(found.points);
   return found;
 }
 

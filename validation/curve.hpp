@@ -19,6 +19,10 @@ Title parse_title(std::string_view text);
 struct CurvePoint {
   double x = 0, y = 0;
   double u_x = 0, u_y = 0;  ///< standard uncertainties, in the units of x and y
+  double u_y_down = -1;     ///< of y downwards, where its bar has unequal arms; below 0: as u_y
+
+  double up() const { return u_y; }
+  double down() const { return u_y_down < 0 ? u_y : u_y_down; }
 };
 
 /// What the sidecar tells; texts as written there, empty where it says nothing.
@@ -40,6 +44,7 @@ struct Curve {
   std::vector<CurvePoint> points;  ///< by ascending x
   Provenance about;
   std::vector<std::string> assumptions;  ///< uncertainties that the source does not state
+  bool of_same_snapshots = false;        ///< an earlier result of what the run itself averages
 };
 
 }  // namespace bedscope::validation

@@ -24,6 +24,8 @@ struct Columns {
   std::size_t x = 0, y = 0;
   std::optional<std::size_t> u_x, u_y, y_lo, y_hi;
   std::vector<std::size_t> parameters;
+
+  bool has_bars() const { return y_lo && y_hi && !u_y; }
 };
 
 std::optional<std::size_t> column_of(const analysis::CsvReader& rows, const std::string& name) {
@@ -100,6 +102,36 @@ double finite(const analysis::CsvReader& rows, std::size_t column) {
   return value;
 }
 
+double uncertainty_in(const analysis::CsvReader& rows, std::size_t column) {
+  const double value = finite(rows, column);
+  if (value < 0)
+    rows.fail(fmt::format("an uncertainty of at least 0 in \"{}\"", rows.header()[column]),
+              std::string(rows.text(column)));
+  return value;
+}
+
+/// The arms of an error bar, which is taken as a 95 % interval.
+void read_bar(const analysis::CsvReader& rows, const Columns& columns, CurvePoint& point) {
+  const double low = finite(rows, *columns.y_lo), high = finite(rows, *columns.y_hi);
+  if (!(low <= point.y && point.y <= high))
+    rows.fail(fmt::format("{} <= {} <= {}", rows.header()[*columns.y_lo], rows.header()[columns.y],
+                          rows.header()[*columns.y_hi]),
+              fmt::format("{}, {}, {}", low, point.y, high));
+  point.u_y = (high - point.y) / coverage_factor;
+  point.u_y_down = (point.y - low) / coverage_factor;
+}
+
+/// Uncertainties of a row, where columns tell them.
+void read_uncertainties(const analysis::CsvReader& rows, const Columns& columns,
+                        const Sidecar& sidecar, CurvePoint& point) {
+  const auto factor = [](const UncertaintyRule& rule) {
+    return rule.is_interval ? coverage_factor : 1;
+  };
+  if (columns.u_x) point.u_x = uncertainty_in(rows, *columns.u_x) / factor(sidecar.u_x);
+  if (columns.u_y) point.u_y = uncertainty_in(rows, *columns.u_y) / factor(sidecar.u_y);
+  if (columns.has_bars()) read_bar(rows, columns, point);
+}
+
 /// Values of a text or number column in the order of numbers where all are numbers.
 std::vector<std::string> ordered(const std::set<std::string>& values) {
   std::vector<std::string> sorted(values.begin(), values.end());
@@ -136,8 +168,8 @@ CurveSet read_set(const std::string& name, const std::string& path) {
     for (std::size_t k = 0; k < values.size(); ++k)
       values[k].emplace(rows.text(columns.parameters[k]));
     if (sidecar.table) continue;
-    finite(rows, columns.x);
-    finite(rows, columns.y);
+    CurvePoint point{finite(rows, columns.x), finite(rows, columns.y)};
+    read_uncertainties(rows, columns, sidecar, point);
   }
   if (set.points == 0) throw FormatError("{}: no rows: expected at least one point", path);
   for (std::size_t k = 0; k < values.size(); ++k)
@@ -189,9 +221,10 @@ void set_uncertainties(const Sidecar& sidecar, bool has_bars, Curve& curve) {
     if (rule.stated()) return;
     curve.assumptions.push_back(one_line(
         digitised
-            ? fmt::format("{}: uncertainty of {} not stated; {:.1g} {} ({} % of its range) "
+            ? fmt::format("{}: uncertainty of {} not stated; {:.1g}{} ({} % of its range) "
                           "assumed as for a digitised plot",
-                          curve.name, title.name, assumed, title.unit, share * 100)
+                          curve.name, title.name, assumed,
+                          title.unit == "-" ? "" : " " + title.unit, share * 100)
             : fmt::format("{}: uncertainty of {} not stated; taken as 0", curve.name, title.name)));
   };
   fill(sidecar.u_x, curve.x, &CurvePoint::x, &CurvePoint::u_x, assumed_u_x);
@@ -241,7 +274,7 @@ Curve read_curve(const CurveSet& set, const std::string& selection,
   const auto columns = find_columns(set.path, rows, sidecar);
   Curve curve{.name = selection, .path = set.path, .x = set.x, .y = set.y, .about = set.about};
   std::vector<std::set<std::string>> left(wanted.size());
-  const bool has_bars = columns.y_lo && columns.y_hi && !columns.u_y;
+  std::string disorder;
   while (rows.next()) {
     bool mine = true;
     for (std::size_t k = 0; k < wanted.size(); ++k)
@@ -250,13 +283,10 @@ Curve read_curve(const CurveSet& set, const std::string& selection,
     for (std::size_t k = 0; k < wanted.size(); ++k)
       left[k].emplace(rows.text(columns.parameters[k]));
     CurvePoint point{finite(rows, columns.x), finite(rows, columns.y)};
-    const double factor_x = sidecar.u_x.is_interval ? coverage_factor : 1;
-    const double factor_y = sidecar.u_y.is_interval ? coverage_factor : 1;
-    if (columns.u_x) point.u_x = finite(rows, *columns.u_x) / factor_x;
-    if (columns.u_y) point.u_y = finite(rows, *columns.u_y) / factor_y;
-    if (has_bars)
-      point.u_y = std::abs(finite(rows, *columns.y_hi) - finite(rows, *columns.y_lo)) /
-                  (2 * coverage_factor);
+    read_uncertainties(rows, columns, sidecar, point);
+    if (!curve.points.empty() && !(point.x > curve.points.back().x) && disorder.empty())
+      disorder = fmt::format("{}: line {}: expected times that ascend, found {} after {}", set.path,
+                             rows.line(), point.x, curve.points.back().x);
     curve.points.push_back(point);
   }
   // A column without a unit is a label of the source; the numbers beside it choose.
@@ -267,12 +297,13 @@ Curve read_curve(const CurveSet& set, const std::string& selection,
                        fmt::join(ordered(left[k]), ", "), choices(set));
   if (curve.points.empty())
     throw InputError("{}: no point is left; there are {}", selection, choices(set));
+  if (curve.x.is_time() && !disorder.empty()) throw FormatError("{}", disorder);
   std::stable_sort(curve.points.begin(), curve.points.end(),
                    [](const CurvePoint& a, const CurvePoint& b) { return a.x < b.x; });
-  if (has_bars)
+  if (columns.has_bars())
     curve.assumptions.push_back(one_line(
         fmt::format("{}: error bars of {} taken as 95 % intervals", selection, curve.y.name)));
-  set_uncertainties(sidecar, has_bars, curve);
+  set_uncertainties(sidecar, columns.has_bars(), curve);
   return curve;
 }
 

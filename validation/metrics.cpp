@@ -44,7 +44,9 @@ Perturbed perturb(const Comparison& comparison, Errors errors, bool of_result, D
     const double between = draw.normal();
     drawn.result.push_back(
         point.result + (of_result ? result * point.u_result + between * point.u_interpolation : 0));
-    drawn.reference.push_back(point.reference + reference * point.u_reference);
+    const bool towards = (reference > 0) == (point.error() >= 0);
+    drawn.reference.push_back(point.reference +
+                              reference * (towards ? point.u_reference : point.away()));
   }
   return drawn;
 }
@@ -59,6 +61,19 @@ double mean_square(const Comparison& comparison, F&& f) {
   double sum = 0;
   for (const auto& point : comparison.points) sum += f(point) * f(point);
   return sum / static_cast<double>(comparison.points.size());
+}
+
+/// Mean over the points that have a logarithm of the squares of f, over the value that it is of.
+double relative_noise(const Comparison& comparison, bool of_result, bool of_reference) {
+  double sum = 0, count = 0;
+  for (const auto& point : comparison.points) {
+    if (!(point.result > 0 && point.reference > 0)) continue;
+    if (of_result)
+      sum += std::pow(std::hypot(point.u_result, point.u_interpolation) / point.result, 2);
+    if (of_reference) sum += std::pow(point.u_reference_mean() / point.reference, 2);
+    count += 1;
+  }
+  return sum / std::max(1., count);
 }
 
 std::vector<double> ranks(std::span<const double> values) {
@@ -76,6 +91,21 @@ std::vector<double> ranks(std::span<const double> values) {
   }
   return rank;
 }
+
+/// Of ln(result / reference), where both are above 0.
+struct Logarithms {
+  double count = 0, mean = 0, variance = 0;
+
+  Logarithms(std::span<const double> result, std::span<const double> reference) {
+    std::vector<double> values;
+    for (std::size_t i = 0; i < result.size(); ++i)
+      if (result[i] > 0 && reference[i] > 0) values.push_back(std::log(result[i] / reference[i]));
+    count = static_cast<double>(values.size());
+    for (const double value : values) mean += value / count;
+    for (const double value : values)
+      variance += (value - mean) * (value - mean) / std::max(1., count - 1);
+  }
+};
 
 double rank_correlation(std::span<const double> a, std::span<const double> b) {
   const auto ra = ranks(a), rb = ranks(b);
@@ -108,6 +138,13 @@ double statistic(const Metric& metric, const Comparison& comparison, const Pertu
   if (metric.name == "relative bias") return std::abs(sum) / m;
   if (metric.name == "relative max error") return largest / m;
   if (metric.name == "max error") return largest;
+  if (metric.of_logarithms) {
+    const Logarithms logarithms(drawn.result, drawn.reference);
+    const double scatter2 = std::max(0., logarithms.variance - added);
+    if (metric.name == "model scatter") return std::sqrt(scatter2);
+    return std::abs(
+        std::exp(logarithms.mean + (scatter2 - relative_noise(comparison, false, true)) / 2) - 1);
+  }
   return rank_correlation(drawn.result, drawn.reference);
 }
 
@@ -144,25 +181,48 @@ double normal_quantile(double share) {
 
 /// Of max |E|: the largest of the points' upper ends, 2.5 % each, for the truth's largest is one of
 /// them; and the largest of their lower ends, 2.5 % for all n together (Bonferroni), for noise
-/// chooses among n. Both hold whatever the correlation between points.
+/// chooses among n. Both hold whatever the correlation between points. An error of the mean that
+/// scales may go with the point's own: they are added.
 Interval interval_of_largest(const Comparison& comparison, bool per_mean, bool of_result) {
   const auto n = static_cast<double>(comparison.points.size());
   const double outer = normal_quantile(.025), inner = normal_quantile(.025 / n);
   double m = 0, u_m = 0;
   for (const auto& point : comparison.points) {
     m += point.reference / n;
-    u_m += point.u_reference / n;
+    u_m += point.u_reference_mean() / n;
   }
   const double scale = per_mean ? std::abs(m) : 1;
   Interval interval;
   for (const auto& point : comparison.points) {
     const double e = std::abs(point.error());
-    double u = of_result ? point.u_validation() : point.u_reference;
-    if (per_mean) u = std::hypot(u, e * u_m / m);
-    interval.lo = std::max(interval.lo, (e - inner * u) / scale);
-    interval.hi = std::max(interval.hi, (e + outer * u) / scale);
+    const double of_mean = per_mean ? e * u_m / std::abs(m) : 0;
+    const auto u = [&](double of_reference) {
+      return std::hypot(of_result ? std::hypot(point.u_result, point.u_interpolation) : 0,
+                        of_reference + of_mean);
+    };
+    interval.lo = std::max(interval.lo, (e - inner * u(point.u_reference)) / scale);
+    interval.hi = std::max(interval.hi, (e + outer * u(point.away())) / scale);
   }
   return interval;
+}
+
+/// What is taken off the mean square of the drawn errors, by each of the ways that may be right.
+std::vector<double> taken_off(const Metric& metric, const Comparison& comparison, double noise,
+                              Errors errors, bool of_result) {
+  if (metric.name == "relative rmse") {
+    const double drawn = mean_square(comparison, [&](const ComparedPoint& p) {
+      return of_result ? std::hypot(p.u_result, p.u_interpolation, p.u_reference_mean())
+                       : p.u_reference_mean();
+    });
+    const double of_reference = mean_square(comparison, [](const ComparedPoint& p) {
+      return std::hypot(p.u_reference_mean(), p.u_interpolation);
+    });
+    // The rmse as defined has the scatter of the reference in it; the truth has not.
+    return {noise + drawn, noise + drawn + of_reference};
+  }
+  if (!metric.of_logarithms) return {0};
+  if (errors == Errors::independent) return {noise + relative_noise(comparison, of_result, true)};
+  return {0, noise};  // errors common to all points are no scatter
 }
 
 Interval interval_of(const Metric& metric, const Comparison& comparison, double value, double noise,
@@ -170,46 +230,35 @@ Interval interval_of(const Metric& metric, const Comparison& comparison, double 
   if (metric.name == "e over u") return {value, value};  // has the uncertainties in it already
   if (metric.name.ends_with("max error"))
     return interval_of_largest(comparison, metric.per_mean, of_result);
-  const bool subtracts = metric.name == "relative rmse";
-  double added = noise;
-  if (metric.name == "relative rmse")
-    added += mean_square(comparison, [&](const ComparedPoint& p) {
-      return of_result ? p.u_validation() : p.u_reference;
-    });
-  const double of_reference = mean_square(comparison, [](const ComparedPoint& p) {
-    return std::hypot(p.u_reference, p.u_interpolation);
-  });
+  const bool reflects = metric.name != "relative rmse" && metric.name != "model scatter";
   Interval interval{value, value};
-  for (const auto errors : {Errors::independent, Errors::common}) {
-    Draw draw;
-    std::vector<double> values, without_reference;
-    for (int k = 0; k < draws; ++k) {
-      const auto drawn = perturb(comparison, errors, of_result, draw);
-      values.push_back(statistic(metric, comparison, drawn, added));
-      if (subtracts)
-        without_reference.push_back(statistic(metric, comparison, drawn, added + of_reference));
+  for (const auto errors : {Errors::independent, Errors::common})
+    for (const double off : taken_off(metric, comparison, noise, errors, of_result)) {
+      Draw draw;
+      std::vector<double> values;
+      for (int k = 0; k < draws; ++k)
+        values.push_back(
+            statistic(metric, comparison, perturb(comparison, errors, of_result, draw), off));
+      widen(interval, value, percentiles(values), reflects);
     }
-    widen(interval, value, percentiles(values), !subtracts);
-    // The rmse as defined has the scatter of the reference in it; the truth has not.
-    if (subtracts) widen(interval, value, percentiles(without_reference), false);
-  }
-  if (metric.name != "rank correlation") interval.lo = std::max(0., interval.lo);
-  if (metric.name == "rank correlation") {
-    interval.lo = std::max(-1., interval.lo);
-    interval.hi = std::min(1., interval.hi);
-  }
+  const bool is_correlation = metric.name == "rank correlation";
+  interval.lo = std::max(is_correlation ? -1. : 0., interval.lo);
+  if (is_correlation) interval.hi = std::min(1., interval.hi);
   return interval;
 }
 
 }  // namespace
 
 std::span<const Metric> metrics() {
-  static constexpr std::array<Metric, 6> all{{
+  static constexpr std::array<Metric, 8> all{{
       {"relative rmse", "root mean square error over the reference's mean"},
       {"relative bias", "mean error over the reference's mean"},
       {"relative max error", "largest error over the reference's mean"},
       {"max error", "largest error", true, false},
       {"e over u", "error over its validation uncertainty (ASME V&V 20)", true, false},
+      {"model bias", "mean factor between result and reference, less 1", true, false, 1, true},
+      {"model scatter", "scatter of that factor beyond what the uncertainties explain", true, false,
+       3, true},
       {"rank correlation", "Spearman's rank correlation", false, false, 4},
   }};
   return all;
@@ -238,6 +287,12 @@ MetricValue evaluate(const Metric& metric, const Comparison& comparison) {
   double noise = 0;
   if (metric.name == "relative rmse")
     noise = mean_square(comparison, [](const ComparedPoint& p) { return p.u_result; });
+  if (metric.of_logarithms) {
+    noise = relative_noise(comparison, true, true);
+    if (Logarithms(as_is.result, as_is.reference).count < static_cast<double>(metric.least_points))
+      throw InputError("{}: expected {} points at which result and reference are above 0",
+                       metric.name, metric.least_points);
+  }
   if (metric.name == "e over u")
     for (const auto& point : comparison.points)
       if (!(point.u_validation() > 0))

@@ -27,6 +27,7 @@ struct Metric {
   bool small_is_good = true;  ///< false: the limit is a lower one (correlation)
   bool per_mean = true;       ///< in units of m; needs m != 0
   std::size_t least_points = 1;
+  bool of_logarithms = false;  ///< only of points at which result and reference are above 0
 };
 
 /// In the order of the manual:
@@ -36,6 +37,10 @@ struct Metric {
 ///   relative max error  max |E| / |m|
 ///   max error           max |E|, in the quantity's unit
 ///   e over u            sqrt(sum (E / u_val)^2 / n), ASME V&V 20 (2009) section 1-5
+///   model bias          |exp(mean ln(R/E) + s^2 / 2 - <(u_E/E)^2> / 2) - 1|, R the result, E the
+///   model scatter       reference; s = sqrt(max(0, var ln(R/E) - <(u_E/E)^2> - <(u_R/R)^2>)):
+///                       McGrattan and Toman, Metrologia 48 (2011) 173, the time average's noise
+///                       taken out, too
 ///   rank correlation    Spearman's, of result and reference over the points
 std::span<const Metric> metrics();
 

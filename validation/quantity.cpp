@@ -35,6 +35,8 @@ constexpr std::array all_quantities{
     NamedQuantity{"lateral gas temperature", "K", lateral_gas_temperature},
     NamedQuantity{"lateral pressure", "Pa", lateral_pressure},
     NamedQuantity{"lateral slip velocity", "m/s", lateral_slip_velocity},
+    NamedQuantity{"local holdup", "-", local_holdup},
+    NamedQuantity{"local voidage", "-", local_voidage},
     NamedQuantity{"occurrence", "-", occurrence},
     NamedQuantity{"cluster holdup", "-", cluster_holdup},
     NamedQuantity{"cluster velocity", "m/s", cluster_velocity},
@@ -89,8 +91,13 @@ Sampled sample(const analysis::RunResult& run, const Place& place) {
 Curve as_curve(const Sampled& sampled, const std::string& name) {
   Curve curve{.name = name, .x = sampled.x, .y = sampled.y};
   for (std::size_t i = 0; i < sampled.at.size(); ++i)
-    if (std::isfinite(sampled.value[i]))
+    if (std::isfinite(sampled.value[i]) && std::isfinite(sampled.u[i]))
       curve.points.push_back({sampled.at[i], sampled.value[i], 0, sampled.u[i]});
+  const auto without =
+      std::count_if(sampled.u.begin(), sampled.u.end(), [](double u) { return std::isnan(u); });
+  if (without > 0)
+    curve.assumptions.push_back(
+        fmt::format("{}: {} points without an interval left out", name, without));
   if (!sampled.error_known)
     curve.assumptions.push_back(name + ": has no intervals; taken as exact");
   return curve;

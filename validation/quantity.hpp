@@ -15,7 +15,8 @@ namespace bedscope::validation {
 /// What of which run, and where.
 struct Place {
   std::string quantity;              ///< "lateral holdup"
-  std::map<std::string, double> at;  ///< height [m], of lateral profiles; probe, from 1
+  std::map<std::string, double> at;  ///< height [m], of lateral profiles; x [m]; time [s],
+                                     ///< of an instant; probe, from 1
   std::string species = "all";
 };
 
@@ -27,9 +28,9 @@ struct NamedQuantity {
 
 std::span<const NamedQuantity> quantities();
 
-/// The quantity of a run with its standard errors (half-widths of 95 % intervals / 1.96; 0 and
-/// `error_known` false where the run has none). Profiles along z or x [m], histories along time
-/// [s], distributions along their own abscissa, single values at 0.
+/// The quantity of a run with its standard errors (half-widths of 95 % intervals / 1.96; nan at a
+/// point that has none; 0 and `error_known` false where the run has none at all). Profiles along z
+/// or x [m], histories along time [s], distributions along their own abscissa, single values at 0.
 /// Throws InputError: no such quantity (names the nearest), no such species or height in the run
 /// (lists what there is), nothing seen.
 Sampled sample(const analysis::RunResult& run, const Place& place);

@@ -33,6 +33,10 @@ Sampled lateral_gas_temperature(const analysis::RunResult& run, const Place& pla
 Sampled lateral_pressure(const analysis::RunResult& run, const Place& place);
 Sampled lateral_slip_velocity(const analysis::RunResult& run, const Place& place);
 
+/// At at.height and at.x: one value of a lateral profile.
+Sampled local_holdup(const analysis::RunResult& run, const Place& place);
+Sampled local_voidage(const analysis::RunResult& run, const Place& place);
+
 /// Means over the window.
 Sampled occurrence(const analysis::RunResult& run, const Place& place);
 Sampled cluster_holdup(const analysis::RunResult& run, const Place& place);
@@ -66,8 +70,8 @@ Sampled temperature_history(const analysis::RunResult& run, const Place& place);
 Sampled cluster_position(const analysis::RunResult& run, const Place& place);
 Sampled temperature_pdf(const analysis::RunResult& run, const Place& place);
 
-/// Estimates along an axis; those without an interval have u = 0, and `error_known` is false where
-/// none has one.
+/// Estimates along an axis; those without an interval have u = nan, or 0 and `error_known` false
+/// where none has one.
 Sampled along(const char* axis, const char* unit, const std::vector<double>& at,
               const std::vector<analysis::Estimate>& estimates);
 

@@ -19,11 +19,11 @@ Sampled along(const char* axis, const char* unit, const std::vector<double>& at,
   if (estimates.size() != at.size()) return sampled;  // a run without it
   sampled.at = at;
   for (const auto& estimate : estimates) {
-    const bool known = std::isfinite(estimate.ci95);
     sampled.value.push_back(estimate.value);
-    sampled.u.push_back(known ? estimate.ci95 / coverage_factor : 0);
-    sampled.error_known = sampled.error_known || known;
+    sampled.u.push_back(estimate.ci95 / coverage_factor);
+    sampled.error_known = sampled.error_known || std::isfinite(estimate.ci95);
   }
+  if (!sampled.error_known) sampled.u.assign(sampled.u.size(), 0);
   return sampled;
 }
 
@@ -35,6 +35,26 @@ const analysis::SpeciesResult& species_of(const RunResult& run, const Place& pla
 }
 
 namespace {
+
+double needed(const RunResult& run, const Place& place, const char* key) {
+  const auto found = place.at.find(key);
+  if (found == place.at.end())
+    throw InputError("run \"{}\": {}: expected at = {{ height = ..., x = ... }} [m]", run.label,
+                     place.quantity);
+  return found->second;
+}
+
+/// A profile's value at one place of it, interpolated linearly between its own.
+Sampled value_at(const RunResult& run, const Place& place, const Sampled& profile) {
+  const double x = needed(run, place, "x");
+  Curve there{.name = place.quantity, .x = profile.x, .y = profile.y, .points = {{x, 0}}};
+  const auto found = compare(profile, there).points.front();
+  return {.at = {0},
+          .value = {found.result},
+          .u = {std::hypot(found.u_result, found.u_interpolation)},
+          .error_known = profile.error_known,
+          .is_scalar = true};
+}
 
 std::size_t height_of(const RunResult& run, const Place& place) {
   const auto wanted = place.at.find("height");
@@ -164,6 +184,12 @@ Sampled lateral_mass_flux(const RunResult& run, const Place& place) {
 Sampled lateral_voidage(const RunResult& run, const Place& place) {
   return or_of_solids(lateral_gas(run, place, &analysis::GasProfile::voidage),
                       lateral_holdup(run, place));
+}
+Sampled local_holdup(const RunResult& run, const Place& place) {
+  return value_at(run, place, lateral_holdup(run, place));
+}
+Sampled local_voidage(const RunResult& run, const Place& place) {
+  return value_at(run, place, lateral_voidage(run, place));
 }
 Sampled lateral_gas_velocity(const RunResult& run, const Place& place) {
   return lateral_gas(run, place, &analysis::GasProfile::velocity_z);

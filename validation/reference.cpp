@@ -46,12 +46,37 @@ std::filesystem::path baseline_folder(const std::string& path, const std::string
   return fs::is_directory(file) ? file : file.parent_path();
 }
 
+/// Equal but for the digits that a table leaves out.
+bool equal(double a, double b) {
+  return std::abs(a - b) <= 1e-5 * std::max(std::abs(a), std::abs(b));
+}
+
+/// By the mean heights of all snapshots, which no two realisations share unless nothing moves.
+bool same_snapshots(const RunResult& a, const RunResult& b) {
+  const bool moves = std::any_of(a.inventory.begin(), a.inventory.end(), [&](const auto& row) {
+    return row.mean_height != a.inventory.front().mean_height;
+  });
+  return moves && std::equal(a.inventory.begin(), a.inventory.end(), b.inventory.begin(),
+                             b.inventory.end(), [](const auto& one, const auto& other) {
+                               return one.type == other.type && equal(one.time, other.time) &&
+                                      one.particles == other.particles &&
+                                      equal(one.mean_height, other.mean_height);
+                             });
+}
+
 /// An earlier result: the tables that lie beside its summary.json.
-Curve baseline(const std::string& path, const Check& check, const std::string& label,
-               const std::string& study) {
+Curve baseline(const std::string& path, const Check& check, const RunResult& run,
+               const Sampled& result, const std::string& study) {
   const auto folder = baseline_folder(path, study);
-  const auto earlier = analysis::read_tables(folder, label);
-  return as_curve(sample(earlier, check.place), "baseline " + path);
+  const auto earlier = analysis::read_tables(folder, run.label);
+  const auto sampled = sample(earlier, check.place);
+  auto curve = as_curve(sampled, "baseline " + path);
+  curve.of_same_snapshots =
+      same_snapshots(run, earlier) || (sampled.at == result.at && sampled.value == result.value);
+  if (curve.of_same_snapshots)
+    curve.assumptions = {curve.name +
+                         ": of the same snapshots; errors of averages are common and drop out"};
+  return curve;
 }
 
 /// The mean of all other runs at the abscissae of this one: how far a family of runs falls
@@ -134,7 +159,7 @@ Curve reference_of(const Check& check, const RunResult& run, const Sampled& resu
     return as_curve(sample(run_of(runs, label), check.place), "run " + label);
   }
   if (check.against.starts_with("baseline:"))
-    return baseline(after("baseline:"), check, run.label, study);
+    return baseline(after("baseline:"), check, run, result, study);
   return reduced(curves.curve(check.against, check.place.at), result);
 }
 

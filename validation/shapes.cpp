@@ -110,7 +110,7 @@ MetricValue evaluate(const Shape& shape, const Sampled& profile) {
   kept.value.clear();
   kept.u.clear();
   for (std::size_t i = 0; i < profile.at.size(); ++i)
-    if (std::isfinite(profile.value[i])) {
+    if (std::isfinite(profile.value[i]) && std::isfinite(profile.u[i])) {
       kept.at.push_back(profile.at[i]);
       kept.value.push_back(profile.value[i]);
       kept.u.push_back(profile.u[i]);

@@ -59,6 +59,10 @@ double minimum_fluidisation(const Parameters& with, const RunResult&, double) {
                                                 with("voidage"));
 }
 
+double minimum_fluidisation_wen_yu(const Parameters& with, const RunResult&, double) {
+  return physics::minimum_fluidisation_velocity_wen_yu(sphere(with), gas(with), with("gravity"));
+}
+
 /// Of the particles that the check's `source` heats; `fraction` of the solids' volume is so.
 double well_mixed_bed(const Parameters& with, const RunResult&, double) {
   const double fraction = with.or_else("fraction", 1);
@@ -167,6 +171,13 @@ std::span<const Theory> all_theories() {
         "Ergun (1952)",
         "superficial; a steep function of the voidage at rest"},
        minimum_fluidisation},
+      {{"minimum fluidisation Wen-Yu",
+        "m/s",
+        {"diameter", "particle_density", "gas_density", "gas_viscosity", "gravity"},
+        {},
+        "Wen and Yu (1966)",
+        "superficial; where the voidage at rest is not known; within about 30 %"},
+       minimum_fluidisation_wen_yu},
       {{"random close packing",
         "-",
         {},

@@ -46,11 +46,26 @@ std::string what_would_settle(const Verdict& verdict) {
   return in_time(verdict.result.duration, longer);
 }
 
+/// Points that a metric of logarithms leaves out.
+std::ptrdiff_t without_logarithm(const Verdict& verdict) {
+  const auto& points = verdict.comparison.points;
+  if (points.empty() || !find_metric(verdict.check.metric).of_logarithms) return 0;
+  return std::count_if(points.begin(), points.end(), [](const ComparedPoint& point) {
+    return !(point.result > 0 && point.reference > 0);
+  });
+}
+
 std::string reason_of(const Verdict& verdict) {
   std::string text = standing(verdict);
   if (!verdict.comparison.outside.empty())
     text += fmt::format("; {} of {} points of the reference lie outside the result",
                         verdict.comparison.outside.size(), verdict.reference.points.size());
+  if (!verdict.comparison.without_error.empty())
+    text += fmt::format("; at {} more the result has no interval, and is not compared",
+                        verdict.comparison.without_error.size());
+  if (const auto without = without_logarithm(verdict); without > 0)
+    text += fmt::format("; {} of {} points have no logarithm", without,
+                        verdict.comparison.points.size());
   if (verdict.outcome == Outcome::undecided) text += "; " + what_would_settle(verdict);
   return text;
 }
@@ -113,14 +128,52 @@ void compare_with_reference(Verdict& verdict) {
         "stands it fits better");
 }
 
-Verdict evaluate_on(const Check& check, const RunResult& run, std::span<const RunResult> runs,
-                    const Curves& curves, const std::string& study) {
+std::size_t snapshots_of(const RunResult& run) {
+  return static_cast<std::size_t>(
+      std::count_if(run.inventory.begin(), run.inventory.end(),
+                    [&](const auto& row) { return row.type == run.inventory.front().type; }));
+}
+
+bool is_instant(const RunResult& run, const Sampled& result) {
+  return !result.error_known && !result.x.is_time() && run.window.snapshots == 1;
+}
+
+/// What the value of the run rests on, in words for people.
+std::string without_intervals(const RunResult& run, const Sampled& result) {
+  if (is_instant(run, result))
+    return fmt::format(
+        "run \"{}\": {} of one snapshot, taken as exact: how it fluctuates is not known", run.label,
+        result.y.name);
+  return fmt::format("run \"{}\": {} has no intervals; taken as exact", run.label, result.y.name);
+}
+
+/// One snapshot out of many is no average: whatever it says, the next one may say otherwise. An
+/// instant that the check asks for, or a run that has no more, is taken as it is.
+void decide_nothing_by_one_of_many(const RunResult& run, Verdict& verdict) {
+  const auto all = snapshots_of(run);
+  if (!is_instant(run, verdict.result) || all < 2) return;
+  const auto& at = verdict.check.place.at;
+  if (const auto asked = at.find("time"); asked != at.end()) {
+    if (std::abs(asked->second - run.window.from) <= 1e-6 * std::abs(asked->second)) return;
+    throw InputError("at.time = {} s: the only snapshot of the run's window is that of {} s",
+                     asked->second, run.window.from);
+  }
+  verdict.outcome = Outcome::undecided;
+  verdict.reason =
+      standing(verdict) +
+      fmt::format(
+          "; the window holds 1 of {} snapshots, which is no average and has no error: "
+          "expected a longer one, or at = {{ time = {} }} where this instant is meant",
+          all, run.window.from);
+}
+
+Verdict judged_on(const Check& check, const RunResult& run, std::span<const RunResult> runs,
+                  const Curves& curves, const std::string& study) {
   Verdict verdict{.check = check, .run = run.label, .limit = check.limit.value_or(0)};
   verdict.result = sample(run, check.place);
   verdict.assumptions = verdict.result.notes;
   if (!verdict.result.error_known)
-    verdict.assumptions.push_back(fmt::format("run \"{}\": {} has no intervals; taken as exact",
-                                              run.label, check.place.quantity));
+    verdict.assumptions.push_back(without_intervals(run, verdict.result));
   if (const auto* shape = find_shape(check.metric)) {
     verdict.limit = check.limit.value_or(shape->limit);
     verdict.small_is_good = shape->small_is_good;
@@ -139,6 +192,13 @@ Verdict evaluate_on(const Check& check, const RunResult& run, std::span<const Ru
   verdict.assumptions.insert(verdict.assumptions.end(), verdict.reference.assumptions.begin(),
                              verdict.reference.assumptions.end());
   compare_with_reference(verdict);
+  return verdict;
+}
+
+Verdict evaluate_on(const Check& check, const RunResult& run, std::span<const RunResult> runs,
+                    const Curves& curves, const std::string& study) {
+  auto verdict = judged_on(check, run, runs, curves, study);
+  if (verdict.outcome != Outcome::skipped) decide_nothing_by_one_of_many(run, verdict);
   return verdict;
 }
 

@@ -12,7 +12,6 @@ import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
 
@@ -20,9 +19,7 @@ import judge  # exits with 77 where numpy or scipy is missing
 import judge_cases
 import numpy as np
 from judge_cases import PROFILES, RUN, Dumps, scene, write_study
-
-PROGRAM = os.path.abspath(sys.argv.pop(1)) if len(sys.argv) > 1 else "bedscope"
-PATIENCE = 60  # s that a live run may need on a busy machine
+from running import PATIENCE, PROGRAM, Running
 
 
 def read(path, mode="rb"):
@@ -35,17 +32,7 @@ def write(path, content):
         file.write(content if isinstance(content, bytes) else content.encode())
 
 
-class Command(unittest.TestCase):
-    maxDiff = 500
-
-    def setUp(self):
-        self.folder = tempfile.mkdtemp(prefix="bedscope_")
-        self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
-        self.out = self.at("out")
-
-    def at(self, *parts):
-        return os.path.join(self.folder, *parts)
-
+class Command(Running):
     def post(self, steps=range(0, 600, 100), count=60, name="post", seed=1, **options):
         dumps = Dumps(self.at(name), seed)
         for step in steps:
@@ -58,15 +45,6 @@ class Command(unittest.TestCase):
     def study(self, run=None, sections=None, **keys):
         return write_study(self.folder, scene(**keys), [RUN | (run or {})],
                            **(sections or {"profiles": PROFILES}))
-
-    def run_it(self, *arguments, **options):
-        return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=PATIENCE,
-                              **options)
-
-    def analyse(self, what, *more, out=None):
-        done = self.run_it("analyse", what, "-o", out or self.out, "--tables-only", "--quiet", *more)
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
-        return done
 
     def tables(self, out=None):
         folder = os.path.join(out or self.out, "tables")

@@ -7,10 +7,7 @@ Usage: tradeoff_test.py BEDSCOPE [unittest arguments]. Exit code 77: numpy is mi
 import csv
 import json
 import os
-import shutil
-import subprocess
 import sys
-import tempfile
 import unittest
 
 try:
@@ -19,7 +16,8 @@ except ImportError as missing:
     print("skipped:", missing)
     sys.exit(77)
 
-PROGRAM = os.path.abspath(sys.argv.pop(1)) if len(sys.argv) > 1 else "bedscope"
+from running import Running
+
 STUDY = """\
 # my study: cells are small
 title = "Constructed"
@@ -44,19 +42,7 @@ time_step = 0.001
 """
 
 
-def bedscope(*words):
-    return subprocess.run([PROGRAM, *words], capture_output=True, text=True, timeout=120)
-
-
-class Runs(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.mkdtemp(prefix="bedscope_")
-        self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
-        self.out = self.at("out")
-
-    def at(self, *parts):
-        return os.path.join(self.folder, *parts)
-
+class Runs(Running):
     def dump(self, step, rows, columns="id type x y z vx vy vz radius", words=None):
         os.makedirs(self.at("post"), exist_ok=True)
         with open(self.at("post", f"dump{step}.liggghts"), "w") as file:
@@ -83,7 +69,7 @@ class Runs(unittest.TestCase):
         return self.at(name)
 
     def weigh(self, study, *words, out=None):
-        done = bedscope("tradeoff", study, "-o", out or self.out, "--quiet", *words)
+        done = self.run_it("tradeoff", study, "-o", out or self.out, "--quiet", *words)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         with open(os.path.join(out or self.out, "summary.json")) as file:
             return json.load(file)["tradeoff"]
@@ -94,11 +80,6 @@ class Runs(unittest.TestCase):
 
     def error(self, product, setting):
         return float(self.table()[product, setting]["error [-]"])
-
-    def analyse(self, study, out):
-        done = bedscope("analyse", study, "-o", out, "--tables-only", "--quiet")
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
-        return out
 
     @staticmethod
     def profile(out, name="axial_profile", value="holdup [-]", at="z [m]"):
@@ -149,7 +130,7 @@ class Tradeoff(Runs):
     def test_errors_of_mapping_and_cells_are_those_of_the_tables(self):
         n = self.series(FOURS)
         self.weigh(self.study(n))
-        finest = self.analyse(self.study(n, name="finest.toml"), self.at("finest"))
+        finest = self.analyse(self.study(n, name="finest.toml"), out=self.at("finest"))
         z, r = self.profile(finest)
         for setting, change in (
                 ("centre, cells x 1", lambda t: t.replace('"exact"', '"centre"')),
@@ -158,7 +139,7 @@ class Tradeoff(Runs):
                 ("centre, cells x 2", lambda t: t.replace("cell    = [0.01, 0.01]", "cells = [4, 16]")
                  .replace('"exact"', '"centre"'))):
             other = self.analyse(self.study(n, change=lambda t: change(t).replace("[profiles]", "[profiles]\nband = 0.02"),
-                                            name="other.toml"), self.at("other"))
+                                            name="other.toml"), out=self.at("other"))
             at, a = self.profile(other)
             expected = np.sqrt(np.mean((np.interp(z, at, a) - r) ** 2)) / np.mean(np.abs(r))
             self.assertAlmostEqual(self.error("axial holdup", setting + ", every snapshot, whole window"),
@@ -192,8 +173,8 @@ class Tradeoff(Runs):
         self.assertIn("# my study: cells are small", after)
         self.assertIn('particles = "../post/dump*.liggghts"', after)
         self.assertIn(f"every = {found['recommended']['every']}", after)
-        z, r = self.profile(self.analyse(self.study(n, name="finest.toml"), self.at("finest")))
-        at, a = self.profile(self.analyse(self.at("out", "recommended.toml"), self.at("cheap")))
+        z, r = self.profile(self.analyse(self.study(n, name="finest.toml"), out=self.at("finest")))
+        at, a = self.profile(self.analyse(self.at("out", "recommended.toml"), out=self.at("cheap")))
         error = np.sqrt(np.mean((np.interp(z, at, a) - r) ** 2)) / r.mean()
         self.assertLess(error, 0.02)
 
@@ -209,7 +190,7 @@ class Tradeoff(Runs):
             text = file.read()
         self.assertEqual(text.count(f'mapping = "{mapping}"'), 2, text)
         self.assertIn(f'label = "µ a"  # µ\nmapping = "{mapping}"', text)
-        self.analyse(self.at("out", "recommended.toml"), self.at("cheap"))
+        self.analyse(self.at("out", "recommended.toml"), out=self.at("cheap"))
 
     def test_results_but_times_do_not_depend_on_threads(self):
         study = self.study(self.series(FOURS))
@@ -254,7 +235,7 @@ class Tradeoff(Runs):
                  ["scene.every", "from 1"]),
                 (self.study(n, name="g.toml", change=lambda t: t.replace("[profiles]", "every = 7\n[profiles]")),
                  ["every = 7", "1, 2, 3, 4"])):
-            done = bedscope("tradeoff", study, "-o", self.at("none"))
+            done = self.run_it("tradeoff", study, "-o", self.at("none"))
             self.assertEqual(done.returncode, 2, done.stderr)
             self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
             for word in words:
@@ -276,9 +257,9 @@ class Products(Runs):
             at = random.uniform([0.003, 0.003, 0.003], [0.077, 0.007, 0.317], (50, 3))
             rows = np.column_stack([at, random.normal(1, 0.2, 50)])
             self.dump(step, rows)
-        all_of_it = self.analyse(self.study(20), self.at("all"))
+        all_of_it = self.analyse(self.study(20), out=self.at("all"))
         axial = self.study(20, name="axial.toml", change=lambda t: 'products = ["axial"]\n' + t)
-        some = self.analyse(axial, self.at("some"))
+        some = self.analyse(axial, out=self.at("some"))
         for value in ("holdup [-]", "holdup_ci95 [-]", "velocity_z [m/s]", "mass_flux_z_ci95 [kg/m2/s]"):
             self.assertEqual(self.profile(all_of_it, value=value)[1].tobytes(),
                              self.profile(some, value=value)[1].tobytes())
@@ -293,15 +274,15 @@ class Products(Runs):
                 lines[i] = " ".join(words)
             with open(path, "w") as file:
                 file.write("\n".join(lines) + "\n")
-        again = self.analyse(axial, self.at("again"))
+        again = self.analyse(axial, out=self.at("again"))
         self.assertEqual(self.profile(some)[1].tobytes(), self.profile(again)[1].tobytes())
-        done = bedscope("analyse", self.study(20), "-o", self.at("fails"), "--tables-only")
+        done = self.run_it("analyse", self.study(20), "-o", self.at("fails"), "--tables-only")
         self.assertEqual(done.returncode, 2)
 
     def test_an_unknown_product_is_one_line(self):
         self.series(FOURS[:4])
         study = self.study(4, change=lambda t: 'products = ["radial"]\n' + t)
-        done = bedscope("analyse", study, "-o", self.at("none"))
+        done = self.run_it("analyse", study, "-o", self.at("none"))
         self.assertEqual(done.returncode, 2)
         self.assertIn('found "radial"', done.stderr)
 

@@ -132,6 +132,28 @@ class Validate(unittest.TestCase):
         with open(self.folder + "/out/report.html") as file:
             self.assertIn("<th>Before</th>", file.read())
 
+    def test_an_earlier_result_of_the_same_snapshots_has_the_same_errors(self):
+        check = ('quantity = "axial holdup"\nagainst = "baseline:old"\nmetric = "relative max error"\n'
+                 "limit = 0.01")
+
+        def tables(name, factor, heights):
+            os.makedirs(f"{self.folder}/{name}/tables", exist_ok=True)
+            with open(f"{self.folder}/{name}/tables/axial_profile.csv", "w") as file:
+                file.write("z [m],holdup [-],holdup_ci95 [-]\n")
+                file.writelines(f"{z / 50},{factor * 0.1},0.01\n" for z in range(51))
+            with open(f"{self.folder}/{name}/tables/inventory.csv", "w") as file:
+                file.write("time [s],type,particles,solids_mass [kg],holdup [-],mean_height [m]\n")
+                file.writelines(f"{k / 10},all,100,0.04,0.1,{h}\n" for k, h in enumerate(heights))
+
+        study = self.study([check])
+        rising, other = [0.5 + k / 100 for k in range(40)], [0.5 + k % 3 / 100 for k in range(40)]
+        tables("old", 1, rising)
+        for factor, heights, verdict in ((1.005, rising, "holds"), (1.02, rising, "does not hold"),
+                                         (1.005, other, "undecided"), (1, other, "holds")):
+            tables("a", factor, heights)
+            done = self.validate(study, "--json")
+            self.assertEqual(json.loads(done.stdout)["checks"][0]["verdict"], verdict, (factor, done.stdout))
+
     def test_several_checks_of_one_comparison_share_its_panel(self):
         check = 'quantity = "axial holdup"\nagainst = 0.075\nmetric = "{}"\nlimit = 1\nuncertainty = 0.001'
         self.validate(self.study([check.format(m) for m in ("relative rmse", "max error", "relative bias")]))

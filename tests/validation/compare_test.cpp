@@ -50,6 +50,24 @@ TEST(Compare, TheReferencesAbscissaErrsThroughTheSlope) {
   EXPECT_NEAR(found.points[0].u_validation(), std::sqrt(.01 * .01 + .08 * .08 + .06 * .06), 1e-12);
 }
 
+TEST(Compare, TheArmOfABarThatFacesTheResultCounts) {
+  const auto above = compare(straight_line(), reference({{.5, .9, 0, .3, .1}}));  // result 1
+  EXPECT_DOUBLE_EQ(above.points[0].u_reference, .3);
+  EXPECT_DOUBLE_EQ(above.points[0].away(), .1);
+  const auto below = compare(straight_line(), reference({{.5, 1.1, 0, .3, .1}}));
+  EXPECT_DOUBLE_EQ(below.points[0].u_reference, .1);
+}
+
+TEST(Compare, WhereTheResultHasNoErrorItIsNotComparedAndCounted) {
+  auto line = straight_line();
+  line.u[3] = NAN;
+  const auto found = compare(line, reference({{.05, 0}, {.25, 0}, {.35, 0}, {.5, 1}}));
+  EXPECT_EQ(found.points.size(), 2U);
+  EXPECT_EQ(found.without_error.size(), 2U);
+  line.u.assign(line.u.size(), NAN);
+  EXPECT_THROW(compare(line, reference({{.5, 1}})), InputError);
+}
+
 TEST(Compare, NothingIsExtrapolatedAndWhatLiesOutsideIsKept) {
   const auto found = compare(straight_line(), reference({{-.01, 0}, {.5, 1}, {1.2, 3}}));
   EXPECT_EQ(found.points.size(), 1U);

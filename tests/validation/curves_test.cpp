@@ -107,6 +107,23 @@ TEST(OwnCurves, ErrorBarsAreIntervals) {
   EXPECT_NEAR(curve.points[0].u_y, 0.01 / 1.96, 1e-15);
 }
 
+TEST(OwnCurves, ErrorBarsKeepTheirUnequalArms) {
+  const TemporaryFolder folder;
+  folder.write("bars.csv", "z [m],holdup [-],holdup_lo [-],holdup_hi [-]\n0.1,0.05,0.04,0.08\n");
+  const auto curve = open(folder.path("")).curve("bars");
+  EXPECT_NEAR(curve.points[0].up(), 0.03 / 1.96, 1e-15);
+  EXPECT_NEAR(curve.points[0].down(), 0.01 / 1.96, 1e-15);
+}
+
+TEST(OwnCurves, ASeriesInTimeAscends) {
+  const TemporaryFolder folder;
+  folder.write("t.csv", "time [s],p [Pa]\n0,1\n2,1\n1,1\n");
+  EXPECT_NE(error_of([&] { open(folder.path("")).curve("t"); }).find("line 4: expected times that"),
+            std::string::npos);
+  folder.write("z.csv", "z [m],p [Pa]\n0,1\n2,1\n1,1\n");  // a profile may be in any order
+  EXPECT_EQ(open(folder.path("")).curve("z").points[1].x, 1);
+}
+
 TEST(OwnCurves, SharesAndNumbersOfASidecarAreTaken) {
   const TemporaryFolder folder;
   folder.write("c.csv", "z [m],holdup [-]\n0.1,0.05\n0.2,0.03\n");
@@ -135,6 +152,9 @@ TEST(OwnCurves, FaultsNameFileAndLine) {
       {"z [m],holdup [-]\n0,1\n", "abscisa = \"z\"\n", "nearest known one is abscissa"},
       {"z [m],holdup [-]\n0,1\n", "abscissa = \"x\"\n", "expected a column \"x\""},
       {"z [m],holdup [-]\n0,1\n", "ordinate_uncertainty = -1\n", "at least 0"},
+      {"z [m],holdup [-],holdup_u [-]\n0,1,-0.1\n", "",
+       "line 2: expected an uncertainty of at least 0"},
+      {"z [m],h [-],h_lo [-],h_hi [-]\n0,1,1.2,0.8\n", "", "line 2: expected h_lo [-] <= h [-]"},
       {"z [m],holdup [-]\n0,1\n", "redistribute = \"maybe\"\n", "\"yes\" or \"no\""},
   };
   for (const auto& [csv, sidecar, text] : cases) {

@@ -60,6 +60,42 @@ TEST(Metrics, NamesAndZeroMeansAreToldApart) {
   EXPECT_THROW(value("relative rmse", comparison({1, 2}, {-1, 1})), InputError);
 }
 
+TEST(Metrics, ModelBiasAndScatterAreThoseOfTheFactor) {
+  // R / E = 1.5 and 1.2 in turn: ln of mean (ln 1.8) / 2, variance (ln 1.25)^2 / 4 * 4 / 3.
+  const auto c = comparison({3, 2.4, 6, 4.8}, {2, 2, 4, 4});
+  const double mean = std::log(1.8) / 2, variance = std::pow(std::log(1.25), 2) / 3;
+  EXPECT_NEAR(value("model scatter", c), std::sqrt(variance), 1e-12);
+  EXPECT_NEAR(value("model bias", c), std::exp(mean + variance / 2) - 1, 1e-12);
+  // What both uncertainties explain is taken out: 5 % and 4 % at each point.
+  auto vague = c;
+  for (auto& point : vague.points) {
+    point.u_reference = .05 * point.reference;
+    point.u_result = .04 * point.result;
+  }
+  EXPECT_NEAR(value("model scatter", vague), std::sqrt(variance - .0041), 1e-12);
+  EXPECT_NEAR(value("model bias", vague), std::exp(mean + (variance - .0041 - .0025) / 2) - 1,
+              1e-12);
+  EXPECT_THROW(value("model scatter", comparison({1, -1, 1}, {1, 1, 1})), InputError);
+}
+
+TEST(Intervals, OfALargestErrorAddTheErrorOfTheMeanThatScalesIt) {
+  // Errors common to all points of the reference: E / m = R / m - 1 errs by u R / m^2.
+  const auto found = evaluate(find_metric("relative max error"), comparison({3, 3}, {2, 2}, 0, .1));
+  EXPECT_NEAR(found.hi, .5 + 1.959964 * .1 * 3 / 4, 1e-6);
+}
+
+TEST(Intervals, OfUnequalArmsReachFurtherOnTheLongerOne) {
+  auto c = comparison({3, 3, 3, 3}, {2, 2, 2, 2});
+  for (auto& point : c.points) point.u_reference = .3, point.u_reference_away = .05;
+  for (const char* metric : {"relative bias", "max error"}) {
+    const auto found = evaluate(find_metric(metric), c);
+    EXPECT_GT(found.value - found.lo, .2) << metric;
+  }
+  const auto largest = evaluate(find_metric("max error"), c);
+  EXPECT_NEAR(largest.hi, 1 + 1.959964 * .05, 1e-6);
+  EXPECT_NEAR(largest.lo, 1 - 2.4977 * .3, 1e-4);
+}
+
 TEST(Intervals, WithoutUncertaintyTheyAreTheValue) {
   const auto found = evaluate(find_metric("relative rmse"), comparison({1, 2, 6}, {2, 2, 4}));
   EXPECT_DOUBLE_EQ(found.lo, found.value);

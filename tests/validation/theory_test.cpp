@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "readers/error.hpp"
 
 namespace bedscope::validation {
@@ -40,6 +42,46 @@ TEST(Theory, TerminalVelocityOfTheRisersGlassIsThatOfSchillerAndNaumann) {
                      {"gravity", 9.81}},
                     "m/s"),
               5.95, .01);
+}
+
+/// By people who know nothing of bedscope; each to the digits that they give.
+TEST(Theory, GivesWhatOthersPublish) {
+  // GPSA Engineering Data Book, 13th ed., example 7-1: a droplet of 150 um, 31.2 lb/ft3, in gas of
+  // 2.07 lb/ft3 falls at 0.46 ft/s.
+  constexpr double foot = .3048, pound_per_cubic_foot = .45359237 / (foot * foot * foot);
+  EXPECT_NEAR(value("terminal velocity",
+                    {{"diameter", 150e-6},
+                     {"particle_density", 31.2 * pound_per_cubic_foot},
+                     {"gas_density", 2.07 * pound_per_cubic_foot},
+                     {"gas_viscosity", 1.2e-5},
+                     {"gravity", 9.80665}},
+                    "m/s") /
+                  foot,
+              .46, .005);
+  // The Python library fluids (C. Bell and contributors), Ergun(): 1338.8671874999995 Pa a metre.
+  EXPECT_NEAR(value("fixed bed pressure drop",
+                    {{"diameter", 8e-4},
+                     {"particle_density", 2500},
+                     {"gas_density", 1e3},
+                     {"gas_viscosity", 1e-3},
+                     {"voidage", .4},
+                     {"superficial_velocity", 1e-3},
+                     {"height", 1}},
+                    "Pa"),
+              1338.8671874999995, 1e-9);
+  // Wen and Yu, AIChE J. 12 (1966) 610: their equation, written out.
+  EXPECT_NEAR(value("minimum fluidisation Wen-Yu",
+                    {{"diameter", 1e-3},
+                     {"particle_density", 2500},
+                     {"gas_density", 1.2},
+                     {"gas_viscosity", 1.8e-5},
+                     {"gravity", 9.81}},
+                    "m/s"),
+              1.8e-5 / 1.2e-3 *
+                  (std::sqrt(33.7 * 33.7 + .0408 * 1.2 * (2500 - 1.2) * 9.81e-9 / 3.24e-10) - 33.7),
+              1e-12);
+  // Berryman, Phys. Rev. A 27 (1983) 1053: 0.64 +- 0.02 for the densest random packing.
+  EXPECT_NEAR(value("random close packing", {}, "-"), .64, .02);
 }
 
 TEST(Theory, AFixedBedIsAtItsInletTemperatureBelowAndAtItsStartAboveTheFront) {

@@ -67,6 +67,32 @@ TEST(Verdicts, InflatedErrorBarsDoNotPass) {
   }
 }
 
+TEST(Verdicts, OneSnapshotOutOfManyDecidesNothing) {
+  auto instant = run("a", 1, NAN);
+  instant.window = {.from = 5, .to = 5, .snapshots = 1};
+  auto check = against(.075, "relative bias", .05);
+  EXPECT_EQ(verdict_of(check, instant).outcome, Outcome::holds);  // the run has no more
+  instant.inventory = {{.time = 4, .type = "all"}, {.time = 5, .type = "all"}};
+  const auto vague = verdict_of(check, instant);
+  EXPECT_EQ(vague.outcome, Outcome::undecided);
+  EXPECT_NE(vague.reason.find("1 of 2 snapshots"), std::string::npos) << vague.reason;
+  check.place.at["time"] = 5;
+  EXPECT_EQ(verdict_of(check, instant).outcome, Outcome::holds);
+  check.place.at["time"] = 4;
+  EXPECT_THROW(verdict_of(check, instant), InputError);
+}
+
+TEST(Verdicts, PointsWithoutAnIntervalAreCounted) {
+  auto patchy = run("a", 1.02, .0001);
+  for (int i = 40; i < 50; ++i) patchy.species[0].axial.holdup[i] = {9, NAN};
+  Check check{
+      .place = {.quantity = "axial holdup"}, .number = .075, .metric = "max error", .limit = 1};
+  const auto verdict = verdict_of(check, patchy);
+  EXPECT_EQ(verdict.outcome, Outcome::holds);
+  EXPECT_NE(verdict.reason.find("at 10 more the result has no interval"), std::string::npos)
+      << verdict.reason;
+}
+
 TEST(Verdicts, ErrorOverUncertaintyAlsoNeedsAnAccuracy) {
   auto check = against(.075, "e over u", 4);
   check.number_u = .0005;
