@@ -8,6 +8,7 @@
 #include "cases/initial_particles.hpp"
 #include "cases/scene_physics.hpp"
 #include "physics/heat_transfer.hpp"
+#include "physics/packing.hpp"
 #include "physics/time_steps.hpp"
 
 namespace bedscope::cases {
@@ -40,11 +41,13 @@ void of_contacts(const Scene& scene, Limits& limits) {
   const double step = scene.numerics.dem_step, contact = shortest_contact(scene);
   if (scene.particles.fixed) return;
   if (contact > 0 && step > 0) {
-    limits.at_most("DEM step in the contact time", step, contact, "s", true,
-                   "a step longer than a contact does not see it");
+    limits.at_most("DEM step in the contact time", step, contact / 2, "s", true,
+                   "half a contact: beyond, contacts that last gain energy in every step (velocity "
+                   "Verlet, docs/stability.md)");
     limits.at_most("DEM step", step, contact / 5, "s", false,
-                   fmt::format("5 steps a contact are tolerable (e within 1.5 %), 10 are good "
-                               "({:.3g} s, e within 0.3 %); of the damped contact (docs/scenes.md)",
+                   fmt::format("a fifth of the contact is tolerable, a tenth ({:.3g} s) good: e is "
+                               "off by up to (pi / n)^2 / 8 with n steps a contact, 5 % and 1.2 % "
+                               "(docs/stability.md)",
                                contact / 10));
   }
   if (scene.contacts.model == ContactModel::hertz && step > 0) {
@@ -97,6 +100,17 @@ void of_grid(const Scene& scene, Limits& limits) {
   if (scene.gas && scene.inlet.particles != Supply::closed)
     limits.at_least("cells in the smallest cluster", scene.smallest_cluster / (edge[0] * edge[2]),
                     9, false, "three each way, or its shape and its occurrence are the grid's");
+  if (scene.gas && scene.inlet.particles != Supply::closed) {
+    constexpr double threshold = 0.2;
+    const double number =
+        threshold * scene.smallest_cluster * scene.geometry.depth / sphere_volume(d);
+    limits.at_most(
+        "scatter of the smallest cluster's holdup", number_scatter(threshold, number), 0.1, "-",
+        false,
+        fmt::format("sqrt(S / N) of the {:.3g} particles that make a holdup of 0.2 in it, with no "
+                    "clusters about (Carnahan and Starling 1969)",
+                    number));
+  }
 }
 
 void of_supply(const Scene& scene, Limits& limits) {
@@ -120,15 +134,23 @@ void of_gas_step(const Scene& scene, Limits& limits) {
                  fmt::format("at the interstitial velocity in a settled bed, {:.3g} m/s (Courant, "
                              "Friedrichs and Lewy 1928)",
                              u / voidage));
-  const double beta = dense_exchange(scene);
+  const double beta = dense_exchange(scene), growth = 1 + dense_slope(scene);
   if (!scene.models.implicit_drag)
     limits.at_most("explicit drag on the gas",
-                   step / gas_relaxation_time(voidage, scene.gas->density, beta), 2, "-", false,
-                   "beta dt / (eps rho_g) in a settled bed: beyond 2 it grows without limit");
+                   step * growth / gas_relaxation_time(voidage, scene.gas->density, beta), 1, "-",
+                   false,
+                   fmt::format("(1 + n) beta dt / (eps rho_g) in the densest part, n = d ln beta / "
+                               "d ln Re = {:.2g}: beyond 1 the gas overshoots, beyond 2 it grows "
+                               "without limit (docs/stability.md)",
+                               growth - 1));
   if (!scene.particles.fixed)
-    limits.at_most("gas step over the particles' relaxation time",
-                   step / solids_relaxation_time(voidage, mean_density(scene), beta), 1, "-", false,
-                   "the drag on particles is held for a gas step: half the limit of stability, 2");
+    limits.at_most(
+        "gas step over the particles' relaxation time",
+        step * growth / (longest_drag_step(voidage, mean_density(scene), beta) / 2), 1, "-", false,
+        fmt::format("the drag on particles is held for a gas step: half the step from which their "
+                    "slip grows, in the densest part, with the pressure gradient that their drag "
+                    "makes and n = {:.2g} (docs/stability.md)",
+                    growth - 1));
 }
 
 void of_heat(const Scene& scene, Limits& limits) {
@@ -136,13 +158,26 @@ void of_heat(const Scene& scene, Limits& limits) {
   if (!scene.models.energy || !(gas.velocity > 0)) return;
   const auto& s = scene.species[0];
   const double voidage = dense_voidage(scene), h = heat_transfer(scene, s);
-  limits.at_most(
-      "gas step over the gas' thermal time",
-      scene.numerics.gas_step / gas_thermal_time(voidage, gas.density * gas.heat_capacity,
-                                                 volumetric_heat_exchange(h, voidage, s.diameter)),
-      2, "-", false,
-      "h a_s dt / (eps rho_g C_pg) in a settled bed: beyond 2 an explicit exchange grows "
-      "without limit");
+  const double edge = cell_edges(scene)[2], step = scene.numerics.gas_step;
+  const double exchange = volumetric_heat_exchange(h, voidage, s.diameter);
+  const double gas_heat = gas.density * gas.heat_capacity;
+  if (h > 0 && edge > 0 && s.heat_capacity > 0) {
+    const double solids = (1 - voidage) * s.density * s.heat_capacity / exchange;
+    const double longest = longest_heat_step(step / gas_thermal_time(voidage, gas_heat, exchange),
+                                             courant(gas.velocity / voidage, step, edge));
+    limits.at_most("gas step over the particles' thermal time", step / solids / (longest / 2), 1,
+                   "-", false,
+                   fmt::format("the heat of particles is held for a gas step: half the step from "
+                               "which their temperature swings ever farther, {:.3g} times "
+                               "(1 - eps) rho_p C_pp / (h a_s) (docs/stability.md)",
+                               longest));
+  }
+  if (scene.particles.fixed && h > 0 && edge > 0)
+    limits.at_most(
+        "cell height over exchange length", edge * exchange / (gas_heat * gas.velocity), 1, "-",
+        false,
+        "h a_s dz / (rho_g C_pg u): linear interpolation between cells overshoots from 2 "
+        "on; at half of it the front is right within 1 % (docs/stability.md)");
   if (scene.particles.fixed) return;
   const auto heat = bed_heat(scene);
   const double rise = std::abs(heat.equilibrium - gas.temperature);

@@ -8,6 +8,7 @@
 #include "physics/contact.hpp"
 #include "physics/heat_transfer.hpp"
 #include "physics/minimum_fluidisation.hpp"
+#include "physics/packing.hpp"
 #include "physics/particle_motion.hpp"
 #include "physics/well_mixed_bed.hpp"
 
@@ -73,10 +74,18 @@ Overlap worst_overlap(const Scene& scene, bool walls) {
 
 }  // namespace
 
-double dense_voidage(const Scene& scene) {
+double settled_voidage(const Scene& scene) {
   constexpr double settled = 0.4;
   if (scene.particles.arrangement != Arrangement::lattice) return settled;
-  return std::max(0.26, 1 - mean_holdup(scene));
+  return std::max(1 - densest_packing, 1 - mean_holdup(scene));
+}
+
+double dense_voidage(const Scene& scene) {
+  if (scene.particles.arrangement != Arrangement::single) return settled_voidage(scene);
+  const auto edge = cell_edges(scene);
+  const double cell = edge[0] * edge[1] * edge[2];
+  const double room = cell > 0 ? cell : cross_section(scene) * scene.geometry.height;
+  return std::max(1 - densest_packing, 1 - sphere_volume(largest_diameter(scene)) / room);
 }
 
 const NamedDragLaw& law_of(const Scene& scene) { return drag_law(scene.models.drag); }
@@ -92,13 +101,19 @@ double terminal_velocity(const Scene& scene, const Species& species) {
 
 double minimum_fluidisation(const Scene& scene, const Species& species) {
   return minimum_fluidisation_velocity(species.sphere(), scene.gas->gas(), scene.gravity,
-                                       dense_voidage(scene), law_of(scene).law);
+                                       settled_voidage(scene), law_of(scene).law);
 }
 
 double dense_exchange(const Scene& scene) {
   const double voidage = dense_voidage(scene), d = smallest_diameter(scene);
   const double re = reynolds(scene.gas->gas(), scene.gas->velocity, d);
   return momentum_exchange(law_of(scene).law(voidage, re), voidage, scene.gas->gas(), d);
+}
+
+double dense_slope(const Scene& scene) {
+  if (!(scene.gas->velocity > 0)) return 0;
+  const double re = reynolds(scene.gas->gas(), scene.gas->velocity, smallest_diameter(scene));
+  return drag_slope(law_of(scene).law, dense_voidage(scene), re);
 }
 
 double impact_velocity(const Scene& scene) {

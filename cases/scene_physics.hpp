@@ -7,7 +7,10 @@
 
 namespace bedscope::cases {
 
-/// Voidage of the scene's densest part: of a settled bed, 0.4, or of its lattice.
+/// Voidage of a settled bed, 0.4, or of the scene's lattice.
+double settled_voidage(const Scene& scene);
+
+/// Voidage of the scene's densest part: that, or what a single particle leaves of its cell.
 double dense_voidage(const Scene& scene);
 
 const physics::NamedDragLaw& law_of(const Scene& scene);
@@ -17,8 +20,10 @@ bool falls(const Scene& scene, const Species& species);
 double terminal_velocity(const Scene& scene, const Species& species);
 double minimum_fluidisation(const Scene& scene, const Species& species);
 
-/// beta of the settled bed at the superficial velocity [kg/m3/s], of the smallest particles.
+/// beta of the densest part at the superficial velocity [kg/m3/s], of the smallest particles; and
+/// the slope n of their drag there (physics/drag.hpp), 0 without gas velocity.
 double dense_exchange(const Scene& scene);
+double dense_slope(const Scene& scene);
 
 /// With which two particles meet at most [m/s]: as the scene says, or the velocity at which they
 /// enter, or the smaller of the gas' and the largest terminal velocity.

@@ -83,6 +83,14 @@ double momentum_exchange(double dimensionless_drag, double voidage, const Gas& g
   return 18 * gas.viscosity * voidage * (1 - voidage) * dimensionless_drag / (diameter * diameter);
 }
 
+double drag_slope(const DragLaw& law, double voidage, double reynolds) {
+  require_positive(reynolds, "Reynolds number");
+  constexpr double step = 1e-3;
+  return (std::log(law(voidage, reynolds * (1 + step))) -
+          std::log(law(voidage, reynolds * (1 - step)))) /
+         (std::log1p(step) - std::log1p(-step));
+}
+
 double carrying_velocity(const Sphere& sphere, const Gas& gas, double gravity, double voidage,
                          const DragLaw& law) {
   require_voidage(voidage);

@@ -84,6 +84,10 @@ const NamedDragLaw& drag_law(std::string_view name);
 double momentum_exchange(double dimensionless_drag, double voidage, const Gas& gas,
                          double diameter);
 
+/// n = d ln F / d ln Re, by which a small change of the slip velocity changes the drag 1 + n times
+/// as much: 0 in creeping flow, 1 where inertia rules. Re > 0. A central difference over 0.2 %.
+double drag_slope(const DragLaw& law, double voidage, double reynolds);
+
 /// Superficial slip velocity at which the drag carries the spheres' weight less buoyancy at this
 /// voidage [m/s]: u_t at a voidage of 1, u_mf at that of the settled bed, hindered settling
 /// between.

@@ -21,6 +21,15 @@ inline constexpr double densest_packing = 0.7404804896930610;
 /// Holdup of a number of equal spheres in a volume [m3].
 double holdup(double number, double diameter, double volume);
 
+/// Standard deviation over mean of the number of equal hard spheres in a volume, of `number` in the
+/// mean, that are at rest among each other (no clusters): sqrt(S / N).
+///
+///   S = (1 - phi)^4 / (1 + 4 phi + 4 phi^2 - 4 phi^3 + phi^4)
+///
+/// The long-wave limit of their structure factor; small volumes scatter more, by their surface.
+/// Source: Carnahan and Starling, J. Chem. Phys. 51 (1969) 635, by the compressibility.
+double number_scatter(double holdup, double number);
+
 /// Height of a settled bed of equal spheres [m] at a holdup between 0 and the densest packing.
 double settled_bed_height(double number, double diameter, double area, double settled_holdup);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "physics/time_steps.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "physics/require.hpp"
@@ -29,6 +30,17 @@ double solids_relaxation_time(double voidage, double particle_density, double mo
   require_positive(particle_density, "particle density");
   require_positive(momentum_exchange, "momentum exchange");
   return (1 - voidage) * particle_density / momentum_exchange;
+}
+
+double longest_drag_step(double voidage, double particle_density, double momentum_exchange) {
+  const double tau = solids_relaxation_time(voidage, particle_density, momentum_exchange);
+  return 2 * std::min(1.0, voidage / (1 - voidage)) * voidage * tau;
+}
+
+double longest_heat_step(double step_over_gas_time, double courant) {
+  require_not_negative(step_over_gas_time, "step");
+  require_not_negative(courant, "Courant number");
+  return 2 * (1 + step_over_gas_time / (2 + courant));
 }
 
 double gas_thermal_time(double voidage, double gas_heat_capacity, double heat_exchange) {

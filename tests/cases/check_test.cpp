@@ -76,6 +76,9 @@ TEST(Limits, OfTheDemStep) {
   EXPECT_TRUE(as_run.ok);
   EXPECT_NEAR(as_run.margin, 49.8 / 25, 2e-3);
   EXPECT_TRUE(limit(shipped("riser/scene.toml"), "DEM step in the contact time").ok);
+  auto half = shipped("riser/scene.toml");
+  half.numerics.dem_step = 0.51 * shortest_contact(half);
+  EXPECT_FALSE(limit(half, "DEM step in the contact time").ok);
   EXPECT_FALSE(limit(shipped("binary_riser/printed.toml"), "DEM step in the contact time").ok);
 }
 
@@ -105,13 +108,55 @@ TEST(Limits, OfExplicitDragComeOnWithIt) {
   EXPECT_THROW(limit(bed, "explicit drag on the gas"), std::out_of_range);
   bed.models.implicit_drag = false;
   const auto now = limit(bed, "explicit drag on the gas");
-  EXPECT_EQ(now.limit, 2);
-  const double tau = physics::gas_relaxation_time(0.4, 1.2, dense_exchange(bed));
+  EXPECT_EQ(now.limit, 1);
+  const double n = dense_slope(bed);  // Re = 48: neither creeping nor inertial
+  EXPECT_GT(n, 0.2);
+  EXPECT_LT(n, 0.8);
+  const double tau = physics::gas_relaxation_time(0.4, 1.2, dense_exchange(bed)) / (1 + n);
   EXPECT_NEAR(now.value, 1e-4 / tau, 1e-12);
-  bed.numerics.gas_step = 2 * tau * 1.01;
+  bed.numerics.gas_step = tau * 1.01;
   EXPECT_FALSE(limit(bed, "explicit drag on the gas").ok);
-  bed.numerics.gas_step = 2 * tau / 2;
+  bed.numerics.gas_step = tau / 2;
   EXPECT_TRUE(limit(bed, "explicit drag on the gas").ok);
+}
+
+TEST(Limits, OfTheParticlesDragAreThoseOfTheirSurroundings) {
+  const char* name = "gas step over the particles' relaxation time";
+  auto scene = shipped("mueller_bed/scene.toml");
+  const double tau = physics::solids_relaxation_time(0.4, 1000, dense_exchange(scene));
+  // In a settled bed min(1, eps / (1 - eps)) eps tau is half the edge: 2/3 of 0.4 tau.
+  EXPECT_NEAR(limit(scene, name).value, 1e-4 * (1 + dense_slope(scene)) / (0.4 * tau * 2 / 3),
+              1e-9);
+  scene.particles.arrangement = Arrangement::single;  // its cell is nearly empty
+  EXPECT_NEAR(dense_voidage(scene), 1 - 1 / 13.263, 1e-4);
+  EXPECT_NEAR(settled_voidage(scene), 0.4, 1e-15);
+  EXPECT_LT(limit(scene, name).value, 1e-4 / tau);
+}
+
+TEST(Limits, OfHeatFollowTheParticlesCapacity) {
+  const char* name = "gas step over the particles' thermal time";
+  auto bed = shipped("bubbling_bed/scene.toml");
+  EXPECT_TRUE(limit(bed, name).ok);
+  const double value = limit(bed, name).value;
+  bed.species[0].heat_capacity /= 100;
+  EXPECT_NEAR(limit(bed, name).value, 100 * value, 1e-9 * value);
+  EXPECT_THROW(limit(bed, "cell height over exchange length"), std::out_of_range);
+  const auto fixed = limit(shipped("fixed_bed/as_run.toml"), "cell height over exchange length");
+  EXPECT_TRUE(fixed.ok);
+  auto coarse = shipped("fixed_bed/as_run.toml");
+  coarse.numerics.grid[2] /= 25;
+  EXPECT_NEAR(limit(coarse, "cell height over exchange length").value, 25 * fixed.value, 1e-9);
+  EXPECT_FALSE(limit(coarse, "cell height over exchange length").ok);
+}
+
+TEST(Limits, OfTheSmallestClusterCountItsParticles) {
+  const char* name = "scatter of the smallest cluster's holdup";
+  EXPECT_TRUE(limit(shipped("riser/scene.toml"), name).ok);
+  EXPECT_TRUE(limit(shipped("riser/K2_b.toml"), name).ok);
+  auto large = shipped("riser/scene.toml");
+  large.species[0].diameter *= 3;  // 0.2 60 6 mm3 hold 8.3 of them
+  EXPECT_FALSE(limit(large, name).ok);
+  EXPECT_NEAR(limit(large, name).value, std::sqrt(0.4096 / 1.9296 / 8.2924), 1e-5);
 }
 
 TEST(Limits, OfTheOverlapFollowTheVelocity) {

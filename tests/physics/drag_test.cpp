@@ -192,5 +192,13 @@ TEST(DragLaw, RefusesWhatIsNoVoidageAndNoReynoldsNumber) {
   }
 }
 
+TEST(Slope, IsThatOfTheLawsPower) {
+  EXPECT_NEAR(drag_slope([](double, double re) { return std::pow(re, 0.687); }, 0.5, 30), 0.687,
+              1e-9);
+  EXPECT_NEAR(drag_slope(ergun, 0.4, 1e-6), 0, 1e-6);
+  EXPECT_NEAR(drag_slope(ergun, 0.4, 1e7), 1, 1e-4);
+  EXPECT_THROW(drag_slope(ergun, 0.4, 0), std::domain_error);
+}
+
 }  // namespace
 }  // namespace bedscope::physics

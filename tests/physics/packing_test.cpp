@@ -40,5 +40,17 @@ TEST(SettledBed, HoldsAllItsParticles) {
   EXPECT_THROW(settled_bed_height(1, 1e-3, 1e-3, 0), std::domain_error);
 }
 
+TEST(Scatter, IsOfPoissonWhereSpheresAreFewAndLessWhereTheyHinderEachOther) {
+  EXPECT_NEAR(number_scatter(0, 100), 0.1, 1e-15);
+  EXPECT_NEAR(number_scatter(0.2, 1), std::sqrt(0.4096 / 1.9296), 1e-12);
+  // S is the inverse of d(phi Z)/d phi, Z = (1 + phi + phi^2 - phi^3) / (1 - phi)^3.
+  const auto pressure = [](double x) {
+    return x * (1 + x + x * x - x * x * x) / std::pow(1 - x, 3);
+  };
+  const double slope = (pressure(0.301) - pressure(0.299)) / 0.002;
+  EXPECT_NEAR(number_scatter(0.3, 1), 1 / std::sqrt(slope), 1e-5);
+  EXPECT_THROW(number_scatter(0.8, 10), std::domain_error);
+}
+
 }  // namespace
 }  // namespace bedscope::physics

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <complex>
 #include <stdexcept>
 
 #include "physics/time_steps.hpp"
@@ -67,6 +69,36 @@ TEST(SmallNumbers, AreTheirDefinitions) {
   EXPECT_NEAR(contact_conductance(100, 1e-5), 2e-3, 1e-15);
 }
 
+/// Largest modulus of the eigenvalues of v'' = p v' + q v.
+double modulus(double p, double q) {
+  const std::complex<double> root = std::sqrt(std::complex<double>(p * p + 4 * q));
+  return std::max(std::abs(p + root), std::abs(p - root)) / 2;
+}
+
+TEST(TimeSteps, OfHeldDragAndHeatAreWhereTheirEigenvaluesLeaveTheUnitCircle) {
+  for (const double eps : {0.35, 0.45, 0.6, 0.9}) {
+    const double c = (1 - eps) / (2 * eps), longest = longest_drag_step(eps, 1000, 1000);
+    const auto growth = [&](double step) {
+      const double r = step / (eps * (1 - eps));  // over eps tau, tau = 1 - eps
+      return modulus(1 - r * (1 + c), -r * c);
+    };
+    EXPECT_LT(growth(0.999 * longest), 1) << eps;
+    EXPECT_GT(growth(1.001 * longest), 1) << eps;
+  }
+  for (const double a_over_b : {0.0, 0.3, 0.9})
+    for (const double courant_over_b : {0.1, 1.0, 5.0}) {  // with 0 their heat is kept: 1
+      double b = 2;
+      for (int i = 0; i < 200; ++i) b = longest_heat_step(a_over_b * b, courant_over_b * b);
+      const auto growth = [&](double step) {  // gas first, then particles with the gas' new value
+        const double a = a_over_b * step, s = 1 + a + courant_over_b * step;
+        const double trace = 1 / s + 1 - step + a * step / s, determinant = (1 - step) / s;
+        return modulus(trace, -determinant);
+      };
+      EXPECT_LT(growth(0.999 * b), 1) << a_over_b << " " << courant_over_b;
+      EXPECT_GT(growth(1.001 * b), 1) << a_over_b << " " << courant_over_b;
+    }
+}
+
 TEST(TimeSteps, OfRayleighIsThatOfASurfaceWave) {
   // The wave runs at about (0.1631 nu + 0.8766) sqrt(G / rho): steel, 2.9 km/s
   const double t = rayleigh_time({0.01, 7800}, 2.1e11, 0.3);
@@ -78,6 +110,11 @@ TEST(TimeSteps, OfDragAreMassOverExchange) {
   EXPECT_NEAR(solids_relaxation_time(0.4, 2500, 5000), 0.3, 1e-12);
   EXPECT_NEAR(gas_thermal_time(0.4, 2500, 1e6), 1e-3, 1e-15);
   EXPECT_NEAR(courant(5, 1e-4, 2.5e-3), 0.2, 1e-12);
+  EXPECT_NEAR(longest_drag_step(1 - 1e-9, 2500, 5000e-9), 1, 1e-6);  // alone: twice 0.5 s
+  EXPECT_NEAR(longest_drag_step(0.4, 2500, 5000), 2 * 0.4 / 0.6 * 0.4 * 0.3, 1e-12);
+  EXPECT_NEAR(longest_drag_step(0.5, 2500, 5000), 2 * 0.5 * 0.25, 1e-12);
+  EXPECT_NEAR(longest_heat_step(0, 0.3), 2, 1e-15);
+  EXPECT_NEAR(longest_heat_step(6, 1), 6, 1e-15);
   EXPECT_THROW(gas_relaxation_time(0, 1.2, 4800), std::domain_error);
   EXPECT_THROW(rayleigh_time({0.01, 7800}, 0, 0.3), std::domain_error);
 }

@@ -1,0 +1,198 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs LIGGGHTS and the coupled solver over the edge of each method and draws the maps of docs/stability.md.
+
+    BEDSCOPE=build/release/app/bedscope BEDSCOPE_COUPLED=build/release/cases/coupled/bedscope-coupled \\
+        cases/stability/simulation/maps.py docs/images/stability_simulation
+
+writes <name>.csv (all that was measured, and whether `bedscope case check` warned), <name>.svg and <name>.png; a few minutes
+of one core. With --draw it draws anew from the .csv. Needs gnuplot and a python with scipy.
+"""
+import csv
+import math
+import pathlib
+import statistics
+import subprocess
+import sys
+import tempfile
+
+import cells
+import contacts
+import drag
+import heat
+import scaling
+
+LOST = 1e3  # stands for what was lost or blew up
+
+
+def collisions():
+    for model in contacts.LIMITS:
+        for n in (1, 1.3, 1.6, 2, 2.5, 3, 4.1, 5.4, 7.4, 10.4, 14.4, 20.4, 40.4):
+            for angle in (0, 45):
+                def run(at, m=model, n=n, a=angle):
+                    return contacts.impacts(at, m, n, a, count=49)
+                yield ("collision", f"{model} {angle}", n, run,
+                       lambda found: statistics.fmean(found[2]) if found[2] else LOST, contacts.LIMITS[model])
+                if (model, angle) == ("linear", 0):
+                    yield ("collision", "largest", n, run, lambda found: max(found[2]) if found[2] else LOST, [])
+
+
+def beds():
+    for model in contacts.LIMITS:
+        for n in (1.3, 1.6, 2, 2.5, 3, 4, 5, 7, 10):
+            yield ("bed", model, n, lambda at, m=model, n=n: contacts.bed(at, m, n, count=125),
+                   lambda found: LOST if found[1] is None else found[1], contacts.LIMITS[model])
+
+
+def overlaps():
+    for speed in (0.27, 1.2, 5.55):
+        for k in (10, 30, 60, 100, 130, 200, 400, 1600, 6400, 25600, 102400):
+            yield ("overlap", str(speed), k, lambda at, k=k, v=speed: contacts.overlap(at, k, v),
+                   lambda found: found[1] if found[2] else LOST, ["overlap over radius at walls"])
+
+
+def drag_steps():
+    limit = ["gas step over the particles' relaxation time"]
+    for x in (0.2, 0.5, 1, 1.5, 1.8, 2, 2.2, 2.5):
+        yield "particle", "lone", x, lambda at, x=x: drag.lone(at, x), lambda found: drag.growth(found[1]), limit
+    for implicit in (True, False):
+        for x in (0.2, 0.4, 0.6, 0.8, 1, 1.2, 1.5, 1.8, 2.2):
+            yield ("particle", "dense implicit" if implicit else "dense explicit", x,
+                   lambda at, x=x, i=implicit: drag.plug(at, x, implicit=i, voidage=0.45),
+                   lambda found: drag.swing(found[1]), limit)
+        for x in (0.25, 0.5, 1, 1.5, 1.8, 2.1, 2.4, 3, 4, 8):
+            yield ("gas", "implicit" if implicit else "explicit", x,
+                   lambda at, x=x, i=implicit: drag.fixed_bed(at, x, i), lambda found: drag.growth(found[1], 1e-7),
+                   [] if implicit else ["explicit drag on the gas"])
+
+
+def grids():
+    for method in cells.METHODS:
+        for ratio in (0.5, 1, 2, 3.6, 8, 15, 30, 60):
+            yield ("jump", method, ratio, lambda at, r=ratio, m=method: cells.crossing(at, r, m),
+                   lambda found: found[1], ["dV/V_p"])
+    places = []
+    for method in cells.METHODS:
+        for n in (2, 3, 4, 5, 6, 7, 8, 10, 12, 16):
+            def run(at, n=n, m=method):
+                if not places:
+                    places.extend(cells.settled(at / "settled"))
+                return cells.packed(at / "cells", places, n, m)
+            yield "holdup", method, 12 / n, run, lambda found: found[1], ["cell edge over diameter"]
+
+
+def scalings():
+    for ratio in (1.1, 1.4, 1.8, 2.3, 3, 4, 6, 9):
+        yield "depth", "bed", ratio, lambda at, r=ratio: scaling.depth(at, r), lambda found: found[1], []
+
+
+def temperatures():
+    for each, capacity in ((1, 0.4), (8, 0.4), (8, 8.0)):
+        for part in (0.25, 0.5, 0.75, 0.9, 1.1, 1.3, 1.6):
+            def run(at, e=each, c=capacity, p=part):
+                return heat.large_step(at, heat.Column(capacity=c).part_of_edge(p, e), e, capacity=c)
+            yield ("heat step", f"{each} {capacity:g}", part, run, lambda found: min(LOST, max(1e-4, found[1])),
+                   ["gas step over the particles' thermal time"])
+    for each in (1, 2, 4, 8, 16):
+        column = heat.Column()
+        yield ("grid", "front", each * column.pitch / column.length, lambda at, e=each: heat.grid(at, e),
+               lambda found: found[1], ["cell height over exchange length"])
+
+
+def measure():
+    rows = []
+    for part in (collisions, beds, overlaps, drag_steps, grids, scalings, temperatures):
+        for panel, series, x, run, value, limits in part():
+            with tempfile.TemporaryDirectory(prefix="stability.") as folder:
+                found = run(pathlib.Path(folder))
+                warned = found[0].warned(*limits) if limits else False
+            rows.append([panel, series, f"{x:.4g}", f"{value(found):.4g}", int(warned)])
+            print(*rows[-1], flush=True)
+    with tempfile.TemporaryDirectory(prefix="stability.") as folder:
+        for number, off in scaling.scatter(pathlib.Path(folder))[1]:
+            rows.append(["scatter", "spheres", f"{number:.4g}", f"{off:.4g}", int(off_warned(number))])
+    return rows
+
+
+def off_warned(number):
+    """The rule of `case check` for the smallest cluster."""
+    return math.sqrt(scaling.structure(0.2) / number) > 0.1
+
+
+BLUE, RED, GREEN, ORANGE = "#0072B2", "#D55E00", "#009E73", "#E69F00"
+LOOKS = [(BLUE, 7, "solid"), (GREEN, 9, "(8,4)"), (ORANGE, 5, "(3,3)"), ("#CC79A7", 11, "(8,3,2,3)"), ("#56B4E9", 13, "(12,3)")]
+E2 = 0.96**2
+PANELS = [  # title, x, y, key, settings, series: (key, label), theories: (formula of x, label)
+    ("One collision, e = 0.96", "steps in a contact", "energy after / before", "collision",
+     "set logscale xy; set xrange [0.9:45]; set yrange [0.7:1500]",
+     [("linear 0", "linear, mean"), ("hertz 0", "Hertz"), ("linear 45", "linear, 45°"), ("hertz 45", "Hertz, 45°"),
+      ("largest", "linear, largest")], [(f"x>1.58?{E2}/(1-(pi/x)**2/4):1/0", "bound"), ("1", "")]),
+    ("A bed at rest", "steps in a contact", "rms speed / √(2 g d)", "bed",
+     "set logscale xy; set xrange [1.1:12]; set yrange [1e-5:2e3]", [("linear", "linear"), ("hertz", "Hertz")], []),
+    ("Overlap at a wall", "stiffness [N/m]", "overlap / radius", "overlap",
+     "set logscale xy; set xrange [7:1.5e5]; set yrange [1e-3:2e3]",
+     [("0.27", "0.27 m/s"), ("1.2", "1.2 m/s"), ("5.55", "5.55 m/s")],
+     [(f"{contacts.largest_overlap(1, v, 0.86) / contacts.D * 2}/sqrt(x)", "theory" if v == 0.27 else "")
+      for v in (0.27, 1.2, 5.55)] + [("0.01", ""), ("1", "")]),
+    ("Drag on particles", "step / relaxation time", "growth of the slip a step, or swing", "particle",
+     "set logscale y; set xrange [0:2.6]; set yrange [0.01:2e3]",
+     [("lone", "lone: growth"), ("dense implicit", "dense: swing"), ("dense explicit", "dense, explicit")],
+     [("abs(1-x)", "|1 − x|"), ("1", "")]),
+    ("Drag on the gas", "(1+n) β Δt / (ε ρ)", "growth of changes a step", "gas",
+     "set logscale y; set xrange [0:8.2]; set yrange [0.03:30]",
+     [("explicit", "explicit"), ("implicit", "implicit")], [("abs(1-x)", "|1 − x|"), ("1", "")]),
+    ("A sphere crosses a face", "ΔV/V_p", "jump of the voidage", "jump",
+     "set logscale xy; set xrange [0.4:80]; set yrange [3e-3:2]", [("centre", "centre"), ("divided", "divided")],
+     [("1/x", "V_p/ΔV"), ("9./29/x", "9/29 V_p/ΔV")]),
+    ("Settled bed on gas cells", "cell edge / diameter", "largest holdup", "holdup",
+     "set xrange [0.6:6.2]; set yrange [0.5:1.05]", [("centre", "centre"), ("divided", "divided")],
+     [("0.74048", "π/√18")]),
+    ("Depth", "D/d", "voidage of a settled bed", "depth", "set logscale x; set xrange [1:16]; set yrange [0.36:0.62]",
+     [("bed", "12 d wide")], []),
+    ("Numbers in a cluster", "spheres", "scatter of holdup", "scatter",
+     "set logscale xy; set xrange [4:500]; set yrange [0.01:0.4]", [("spheres", "holdup 0.2")],
+     [(f"sqrt({scaling.structure(0.2)}/x)", "√(S/N)")]),
+    ("Heat with large steps", "step / theoretical edge", "temperature beyond both / step", "heat step",
+     "set logscale y; set xrange [0.2:1.7]; set yrange [5e-5:2e3]",
+     [("1 0.4", "cell 0.35 long"), ("8 0.4", "2.8 long"), ("8 8", "2.8 long, slow")], []),
+    ("Fixed bed on a coarse grid", "cell height / exchange length", "largest error / step", "grid",
+     "set logscale xy; set xrange [0.2:8]; set yrange [1e-3:0.2]", [("front", "half-way front")], [("0.01", "")]),
+]
+
+
+def draw(rows, name):
+    script = ["set encoding utf8", "set border lw .7", "set tics in scale .5", "set samples 400",
+              "set key outside top center horizontal Left reverse samplen 2.5 maxcols 2 font ',9'", "set format '%g'"]
+    for n, (*_, key, _, series, _) in enumerate(PANELS):
+        for k, (one, _) in enumerate(series):
+            points = sorted((float(r[2]), float(r[3]), r[4]) for r in rows if r[0] == key and r[1] == one)
+            script.append(f"$p{n}_{k} << END\n" + "\n".join(f"{x} {y} {w}" for x, y, w in points) + "\nEND")
+    for form, terminal in (("svg", "svg size 1080,1240 font 'DejaVu Sans,10' background 'white'"),
+                           ("png", "pngcairo size 2160,2480 font 'DejaVu Sans,10' fontscale 2 pointscale 1.5 linewidth 1.6")):
+        script += [f"set terminal {terminal}", f"set output '{name}.{form}'", "set multiplot layout 4,3"]
+        for n, (title, x, y, _, settings, series, theories) in enumerate(PANELS):
+            words = [f"{f} w l lw 1 dt 1 lc rgb '#888888' " + (f"t '{label}'" if label else "notitle")
+                     for f, label in theories]
+            for k, (_, label) in enumerate(series):
+                colour, mark, dash = LOOKS[k]
+                words.append(f"$p{n}_{k} u 1:2 w lp pt {mark} ps .5 dt {dash} lc rgb '{colour}' t '{label}'")
+                words.append(f"$p{n}_{k} u 1:($3>0?$2:1/0) w p pt 6 ps 1.1 lc rgb '{RED}' "
+                             + ("t 'warned'" if k == 0 else "notitle"))
+            script += ["unset logscale; set xtics autofreq; set autoscale", settings, f"set title '{title}' offset 0,0",
+                       f"set xlabel '{x}' offset 0,.5", f"set ylabel '{y}' offset 1,0", "plot " + ", ".join(words)]
+        script += ["unset multiplot; unset output"]
+    subprocess.run(["gnuplot", "-"], input="\n".join(script), text=True, check=True)
+
+
+def main(name, *flags):
+    table = pathlib.Path(name + ".csv")
+    if "--draw" not in flags:
+        rows = measure()
+        with open(table, "w", newline="") as file:
+            csv.writer(file, lineterminator="\n").writerows([["map", "series", "x", "y", "warned"], *rows])
+    with open(table, newline="") as file:
+        draw(list(csv.reader(file))[1:], name)
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
