@@ -33,6 +33,10 @@ Sampled lateral_gas_temperature(const analysis::RunResult& run, const Place& pla
 Sampled lateral_pressure(const analysis::RunResult& run, const Place& place);
 Sampled lateral_slip_velocity(const analysis::RunResult& run, const Place& place);
 
+/// Of RunResult::series: over the window, or all of it against time.
+Sampled series_mean(const analysis::RunResult& run, const analysis::Signal& signal);
+Sampled series_history(const analysis::Signal& signal);
+
 /// Means over the window.
 Sampled occurrence(const analysis::RunResult& run, const Place& place);
 Sampled cluster_holdup(const analysis::RunResult& run, const Place& place);
