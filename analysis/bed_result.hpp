@@ -57,6 +57,12 @@ struct Spectrum {
   double degrees_of_freedom = std::numeric_limits<double>::quiet_NaN();
 };
 
+/// A quantity at ascending times [s].
+struct Signal {
+  std::string name, unit;
+  std::vector<double> times, values;
+};
+
 /// How one signal fluctuates over the window.
 struct Fluctuation {
   std::string signal, unit;

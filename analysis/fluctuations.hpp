@@ -10,12 +10,6 @@
 
 namespace bedscope::analysis {
 
-/// A quantity at ascending times [s].
-struct Signal {
-  std::string name, unit;
-  std::vector<double> times, values;
-};
-
 /// Mean and standard deviation with 95 % intervals that take the correlation in time into account,
 /// and the power spectral density where the signal is neither constant nor short (least_record).
 ///

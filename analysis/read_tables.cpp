@@ -28,7 +28,7 @@ constexpr std::string_view table_names[] = {
     "axial_profile.csv", "lateral_profile.csv",   "inventory.csv",          "clusters.csv",
     "temperature.csv",   "temperature_axial.csv", "cluster_occurrence.csv", "temperature_pdf.csv",
     "bed_height.csv",    "bubbles.csv",           "bubble_profile.csv",     "fluctuation.csv",
-    "gas_axial.csv",     "gas_lateral.csv",       "pressure_drop.csv"};
+    "gas_axial.csv",     "gas_lateral.csv",       "pressure_drop.csv",      "series.csv"};
 
 // Which rows to take: those of `label`, or all where there is one run only.
 std::optional<std::string> chosen_run(const std::vector<fs::path>& tables, const fs::path& folder,
@@ -252,6 +252,26 @@ void read_temperature(const fs::path& path, const std::optional<std::string>& ru
   }
 }
 
+void read_series(const fs::path& path, const std::optional<std::string>& run_name, RunResult& run) {
+  RunRows table(path, run_name);
+  const std::size_t name = table.needed("series"), unit = table.needed("unit"),
+                    time = table.needed("time [s]"), value = table.needed("value");
+  while (table.next()) {
+    auto signal = std::find_if(run.series.begin(), run.series.end(),
+                               [&](const Signal& s) { return s.name == table.text(name); });
+    if (signal == run.series.end())
+      signal = run.series.insert(
+          signal, Signal{std::string(table.text(name)), std::string(table.text(unit)), {}, {}});
+    if (signal->unit != table.text(unit))
+      table.fail(fmt::format("the unit {} of its first row", signal->unit), table.text(unit));
+    const double at = table.finite(time, "time");
+    if (!signal->times.empty() && !(at > signal->times.back()))
+      table.fail(fmt::format("a time after {} s", signal->times.back()), fmt::format("{} s", at));
+    signal->times.push_back(at);
+    signal->values.push_back(table.number(value));
+  }
+}
+
 // Into the layers of axial_profile.csv, or where a species has none there into its own.
 void read_axial_temperature(const fs::path& path, const std::optional<std::string>& run_name,
                             RunResult& run) {
@@ -350,7 +370,7 @@ bool any_time(const RunResult& run) {
   return std::any_of(run.inventory.begin(), run.inventory.end(), known) ||
          std::any_of(run.occurrence.begin(), run.occurrence.end(), known) ||
          std::any_of(run.clusters.begin(), run.clusters.end(), known) ||
-         std::any_of(run.temperature.begin(), run.temperature.end(), known);
+         std::any_of(run.temperature.begin(), run.temperature.end(), known) || !run.series.empty();
 }
 
 // False only where masses or fluxes stand beside holdups and all are NaN.
@@ -409,6 +429,7 @@ RunResult read_tables(const fs::path& folder, const std::string& label) {
   read("gas_axial.csv", read_gas_axial);
   read("gas_lateral.csv", read_gas_lateral);
   read("pressure_drop.csv", read_pressure_drop);
+  read("series.csv", read_series);
   arrange(run);
   run.time_known = any_time(run);
   run.density_known = any_density(run);

@@ -116,6 +116,7 @@ struct RunResult {
   BedHeight bed;
   std::optional<Bubbles> bubbles;         ///< where the study asks for them
   std::vector<Fluctuation> fluctuations;  ///< of the signals that the study asks for
+  std::vector<Signal> series;             ///< other quantities in time, of a run given as tables
   std::vector<Frame> frames;              ///< a few snapshots of the window, evenly spread
 
   GasResult gas;

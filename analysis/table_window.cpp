@@ -31,6 +31,7 @@ std::vector<double> times_of(const RunResult& run) {
   take(run.temperature, [&](const auto& row) { return row.type == run.temperature.front().type; });
   take(run.bed.samples, any);
   take(run.gas.pressure, any);
+  if (times.empty() && !run.series.empty()) times = run.series.front().times;
   std::sort(times.begin(), times.end());
   return times;
 }

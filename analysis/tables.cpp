@@ -90,6 +90,17 @@ void write_occurrence(std::span<const RunResult> runs, const std::filesystem::pa
   table.commit();
 }
 
+void write_series(std::span<const RunResult> runs, const std::filesystem::path& path) {
+  if (std::all_of(runs.begin(), runs.end(), [](const auto& run) { return run.series.empty(); }))
+    return remove_file(path);
+  CsvWriter table(path, "run,series,unit,time [s],value");
+  for (const RunResult& run : runs)
+    for (const Signal& signal : run.series)
+      for (std::size_t i = 0; i < signal.times.size(); ++i)
+        table.row(run.label, signal.name, signal.unit, signal.times[i], signal.values[i]);
+  table.commit();
+}
+
 void write_temperature(std::span<const RunResult> runs, const std::filesystem::path& path) {
   CsvWriter table(path, "run,time [s],type,mean [K],std [K],min [K],max [K]");
   for (const RunResult& run : runs)
@@ -132,6 +143,7 @@ void write_tables(std::span<const RunResult> runs, const std::filesystem::path& 
   write_bed_tables(runs, folder);
 
   write_gas_tables(runs, folder);
+  write_series(runs, folder / "series.csv");
 
   const bool temperature = std::any_of(
       runs.begin(), runs.end(), [](const RunResult& run) { return !run.temperature.empty(); });

@@ -16,7 +16,7 @@ namespace bedscope::analysis {
 /// Writes axial_profile, lateral_profile, inventory, clusters and cluster_occurrence (.csv) into
 /// `folder`, with their header alone where there are no rows; temperature and temperature_pdf only
 /// where a run has a temperature (or a PDF), else one left there earlier is removed; and the tables
-/// of bed_tables.hpp and of the gas (gas_tables.hpp). Times are nan where a run's are not known,
+/// of bed_tables.hpp and of the gas (gas_tables.hpp); series where a run has some. Times are nan where a run's are not known,
 /// masses and mass fluxes where its density is not. Throws FileError.
 void write_tables(std::span<const RunResult> runs, const std::filesystem::path& folder);
 
@@ -25,7 +25,7 @@ void write_tables(std::span<const RunResult> runs, const std::filesystem::path& 
 ///
 /// Columns are found by name, in any order; others are ignored. Needed are a table's coordinates
 /// (`z [m]`; `height [m]` and `x [m]`; `time [s]`; `bin_centre [-]`) and `particles`, `clusters`,
-/// `mean [K]` and `probability_density [-]` of their tables; of clusters.csv `time [s]`, `x [m]`
+/// `mean [K]` and `probability_density [-]` of their tables; all of series.csv but the run; of clusters.csv `time [s]`, `x [m]`
 /// and `z [m]`. What is left out is NaN, `type` is "all", `cluster` and `track` are 0.
 /// The rows of a profile may come in any order. The grid is that of the profiles' coordinates,
 /// one cell deep, depth from 0 to 0 (unknown); where coordinates are not evenly spaced `problems`

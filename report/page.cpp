@@ -100,7 +100,8 @@ std::string link_list(const fs::path& folder) {
                                     "tables/gas_axial.csv",
                                     "tables/gas_lateral.csv",
                                     "tables/voidage_check.csv",
-                                    "tables/pressure_drop.csv"};
+                                    "tables/pressure_drop.csv",
+                                    "tables/series.csv"};
   std::string links = "<p class=\"note\">Data: ";
   for (const char* file : files) {
     std::error_code missing;

@@ -73,7 +73,8 @@ Check read_check(TomlTable& table) {
   if (!quantity) table.fail(table.raw(), "check.quantity is missing: expected a text");
   std::set<std::string> names;
   for (const auto& each : quantities()) names.emplace(each.name);
-  require_name(table, *table.find("quantity"), "quantity", *quantity, names);
+  if (!is_series(*quantity))
+    require_name(table, *table.find("quantity"), "quantity", *quantity, names);
   check.place = {*quantity, numbers_of(table, "at"), table.text("species").value_or("all")};
   check.run = table.text("run").value_or("");
   check.with = numbers_of(table, "with");

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "validation/quantity.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -64,11 +67,9 @@ constexpr std::array all_quantities{
     NamedQuantity{"bubble velocity", "m/s", bubble_velocity},
 };
 
-}  // namespace
+constexpr std::string_view series_prefix = "series: ", series_suffix = " history";
 
-std::span<const NamedQuantity> quantities() { return all_quantities; }
-
-Sampled sample(const analysis::RunResult& run, const Place& place) {
+Sampled of_table(const analysis::RunResult& run, const Place& place) {
   const auto quantity = std::find_if(all_quantities.begin(), all_quantities.end(),
                                      [&](const auto& q) { return q.name == place.quantity; });
   if (quantity == all_quantities.end()) {
@@ -78,11 +79,40 @@ Sampled sample(const analysis::RunResult& run, const Place& place) {
                      readers::nearest_name(place.quantity, names));
   }
   auto sampled = quantity->of(run, place);
+  sampled.y = {std::string(quantity->name), std::string(quantity->unit)};
+  return sampled;
+}
+
+Sampled of_series(const analysis::RunResult& run, const Place& place) {
+  std::string_view name = place.quantity;
+  name.remove_prefix(series_prefix.size());
+  const bool whole = name.ends_with(series_suffix);
+  if (whole) name.remove_suffix(series_suffix.size());
+  const auto signal = std::find_if(run.series.begin(), run.series.end(),
+                                   [&](const auto& each) { return each.name == name; });
+  if (signal == run.series.end()) {
+    std::vector<std::string> names;
+    for (const auto& each : run.series) names.push_back(each.name);
+    throw InputError("run \"{}\": no series \"{}\" in its series.csv, which has {}", run.label,
+                     name, names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", ")));
+  }
+  auto sampled = whole ? series_history(*signal) : series_mean(run, *signal);
+  sampled.y = {signal->name, signal->unit};
+  return sampled;
+}
+
+}  // namespace
+
+std::span<const NamedQuantity> quantities() { return all_quantities; }
+
+bool is_series(std::string_view quantity) { return quantity.starts_with(series_prefix); }
+
+Sampled sample(const analysis::RunResult& run, const Place& place) {
+  auto sampled = is_series(place.quantity) ? of_series(run, place) : of_table(run, place);
   if (std::none_of(sampled.value.begin(), sampled.value.end(),
                    [](double value) { return std::isfinite(value); }))
     throw InputError("run \"{}\": it has no {}{}", run.label, place.quantity,
                      place.species == "all" ? "" : " of species " + place.species);
-  sampled.y = {std::string(quantity->name), std::string(quantity->unit)};
   if (std::isfinite(run.window.to - run.window.from) && !sampled.x.is_time())
     sampled.duration = run.window.to - run.window.from;
   return sampled;

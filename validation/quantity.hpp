@@ -28,6 +28,9 @@ struct NamedQuantity {
 
 std::span<const NamedQuantity> quantities();
 
+/// "series: NAME" and "series: NAME history" are quantities, too: of the run's series of that name.
+bool is_series(std::string_view quantity);
+
 /// The quantity of a run with its standard errors (half-widths of 95 % intervals / 1.96; nan at a
 /// point that has none; 0 and `error_known` false where the run has none at all). Profiles along z
 /// or x [m], histories along time [s], distributions along their own abscissa, single values at 0.

@@ -37,6 +37,10 @@ Sampled lateral_slip_velocity(const analysis::RunResult& run, const Place& place
 Sampled local_holdup(const analysis::RunResult& run, const Place& place);
 Sampled local_voidage(const analysis::RunResult& run, const Place& place);
 
+/// Of RunResult::series: over the window, or all of it against time.
+Sampled series_mean(const analysis::RunResult& run, const analysis::Signal& signal);
+Sampled series_history(const analysis::Signal& signal);
+
 /// Means over the window.
 Sampled occurrence(const analysis::RunResult& run, const Place& place);
 Sampled cluster_holdup(const analysis::RunResult& run, const Place& place);

@@ -249,6 +249,17 @@ Sampled temperature_history(const RunResult& run, const Place& place) {
                         [&](const auto& row) { return row.type == place.species; }));
 }
 
+Sampled series_mean(const RunResult& run, const Signal& signal) {
+  Signal kept;
+  for (std::size_t i = 0; i < signal.times.size(); ++i)
+    if (in_window(run, signal.times[i]) && std::isfinite(signal.values[i])) {
+      kept.times.push_back(signal.times[i]);
+      kept.values.push_back(signal.values[i]);
+    }
+  return single(mean_of(kept));
+}
+Sampled series_history(const Signal& signal) { return history(signal); }
+
 /// Probability density of the clusters' lateral places in the domain, 0 to 1, with the errors of
 /// counts (Poisson).
 Sampled cluster_position(const RunResult& run, const Place&) {

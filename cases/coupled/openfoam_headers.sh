@@ -28,7 +28,7 @@ apt() {
     -o Dir::State::Lists="$work/lists" -o Dir::Cache="$work/cache" "$@"
 }
 echo "openfoam_headers: reading openfoam $version from Debian's source package (45 MB)"
-apt update >"$work/log" 2>&1 || fail "apt-get update failed: $(tail -n 1 "$work/log")"
+apt update -o APT::Update::Error-Mode=any >"$work/log" 2>&1 || fail "apt-get update failed: $(tail -n 1 "$work/log")"
 (cd "$work/source" && apt source --download-only "openfoam=$version" >"$work/log" 2>&1) ||
   fail "apt-get source openfoam=$version failed: $(tail -n 1 "$work/log")"
 

@@ -234,6 +234,31 @@ TEST(ReadTables, TakeColumnsInAnyOrderOfAnotherProgram) {
   EXPECT_FALSE(run.density_known);
 }
 
+TEST(ReadTables, TakeSeriesOfAnyNameAndWriteThemAgain) {
+  const TestFolder folder;
+  put(folder / "series.csv",
+      "run,series,unit,time [s],value\na,drag,N,0,1\na,leak,-,0.5,nan\na,drag,N,1,2\n");
+  auto run = read_tables(folder, "a");
+  choose_window(run, std::array{0.5, 2.0});
+  EXPECT_EQ(run.window.snapshots, 1u);
+  write_tables(std::vector{run}, folder);
+  const auto again = read_tables(folder, "a");
+  ASSERT_EQ(again.series.size(), 2u);
+  EXPECT_EQ(again.series[0].name, "drag");
+  EXPECT_EQ(again.series[0].unit, "N");
+  EXPECT_EQ(again.series[0].times, (std::vector{0.0, 1.0}));
+  EXPECT_EQ(again.series[0].values, (std::vector{1.0, 2.0}));
+  EXPECT_TRUE(std::isnan(again.series[1].values.at(0)));
+  write_tables(std::vector{example_run("run")}, folder);
+  EXPECT_FALSE(std::filesystem::exists(folder / "series.csv"));
+
+  const TestFolder bad;
+  put(bad / "series.csv", "run,series,unit,time [s],value\na,drag,N,1,1\na,drag,N,1,2\n");
+  expect_error<FormatError>(bad, "series.csv: line 3: expected a time after 1 s, found 1 s");
+  put(bad / "series.csv", "run,series,unit,time [s],value\na,drag,N,1,1\na,drag,kg,2,2\n");
+  expect_error<FormatError>(bad, "line 3: expected the unit N of its first row, found kg");
+}
+
 TEST(ReadTables, TakeTheOnlyRunWhateverItsName) {
   const TestFolder folder;
   put(folder / "cluster_occurrence.csv", "run,time [s],clusters\nold name,1,3\n");

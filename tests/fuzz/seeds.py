@@ -7,6 +7,7 @@
 import base64
 import gzip
 import lzma
+import re
 import struct
 import sys
 import zlib
@@ -435,6 +436,7 @@ write("tables", "bed_and_gas", parts({
     "fluctuation.csv": "run,signal,unit,mean [unit],std [unit],dominant_frequency [Hz]\nr,p 1,Pa,1,2,3\n",
     "gas_axial.csv": "run,z [m],voidage [-],pressure [Pa]\nr,1.5,0.9,2\nr,0.5,0.9,3\n",
     "gas_lateral.csv": "run,height [m],x [m],voidage [-]\nr,1,0.1,0.9\n",
+    "series.csv": "run,series,unit,time [s],value\nr,drag,N,0.1,1\nr,leak,-,0.1,nan\nr,drag,N,0.2,2\n",
     "pressure_drop.csv": "run,time [s],pressure_drop [Pa],bed_weight_over_area [Pa]\nr,0.1,400,410\n"}))
 write("tables", "two_runs", parts({"cluster_occurrence.csv": "time [s],clusters,run\n0.1,1,run\n0.2,1,other\r\n"}))
 
@@ -448,6 +450,15 @@ write("curves", "intervals", parts({"b.csv": "height [m],x [m],v [m/s],v_ci95 [m
 write("curves", "bars", parts({"b.csv": "x [m],v [-],v_lo [-],v_hi [-]\n0,1,0.9,1.1\n", "b.toml": 'abscissa_uncertainty = "not stated"\n'}))
 write("curves", "withheld", parts({"c.toml": 'redistribute = "no"\ncitation = "A 2001"\n'}))
 write("curves", "table", parts({"t.csv": 'name,value\n"a, b",1\n', "t.toml": "table = true\n"}))
+
+cases = data.parents[1] / "cases"
+riser = (cases / "riser/scene.toml").read_text()
+for scene in ("riser/scene", "riser/feed_side_printed", "binary_riser/scene", "bubbling_bed/scene", "fixed_bed/scene",
+              "impact/scene", "mueller_bed/scene"):
+    text = re.sub(r'base = "[^"]*"', 'base = "base.toml"', (cases / f"{scene}.toml").read_text())
+    write("scene", scene.replace("/", "_"), parts({"scene.toml": text} | ({"base.toml": riser} if "base.toml" in text else {})))
+write("scene", "scaled", parts({"scene.toml": 'base = "base.toml"\nscale = { factor = 2, condition = "b" }\n',
+                                "base.toml": riser}))
 
 write("summary", "checks", """{"runs": [{"label": "r", "mean_holdup": 0.1}], "checks": [
  {"key": "r: holdup", "quantity": "lateral holdup", "at": {"height": 0.8}, "value": 0.1, "lo": 0.05, "hi": 0.2, "verdict": "holds"},

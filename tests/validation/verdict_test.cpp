@@ -143,6 +143,28 @@ TEST(Verdicts, AgainstAnotherRunAndAgainstAllOthers) {
               .05 / 1.15 * std::sqrt(1 + std::pow(.05 * .02 * 14.43 / .075, 2)), .002);
 }
 
+TEST(Verdicts, OfSeriesAreTheirMeanInTheWindowOrAllOfThem) {
+  auto result = run("a", 1, .01);
+  result.series = {{"drag", "N", {4, 5, 10, 15}, {100, 2, 3, 4}}};
+  Check check{
+      .place = {.quantity = "series: drag"}, .number = 3, .metric = "max error", .limit = 10};
+  const auto mean = verdict_of(check, result);
+  EXPECT_NEAR(mean.metric.value, 0, 1e-12);  // 100 is before the window
+  EXPECT_EQ(mean.comparison.y.unit, "N");
+  check.place.quantity = "series: drag history";
+  EXPECT_EQ(verdict_of(check, result).metric.value, 97);
+  check.place.quantity = "series: lift";
+  try {
+    verdict_of(check, result);
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_NE(
+        std::string(error.what()).find("no series \"lift\" in its series.csv, which has drag"),
+        std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(Verdicts, FaultsNameTheStudysLine) {
   const auto text = [](Check check) {
     check.line = 12;
