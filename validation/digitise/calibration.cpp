@@ -4,18 +4,22 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "readers/error.hpp"
 
 namespace bedscope::digitise {
 namespace {
 
-/// Whole pixels are read off by eye: u = 0.5 / sqrt(3); a fraction was measured.
-double pixel_uncertainty(const AxisSpec& axis) {
-  const bool whole = std::all_of(axis.points.begin(), axis.points.end(), [](const auto& point) {
-    return point.pixel.x == std::round(point.pixel.x) && point.pixel.y == std::round(point.pixel.y);
-  });
-  return whole ? 0.29 : 0.1;
+/// The line that is meant by a point: the only one near it.
+std::optional<double> meant(double at, const std::vector<double>& lines, double pixel) {
+  std::optional<double> line;
+  for (const double other : lines) {
+    if (std::abs(other - at) > 6 * pixel) continue;
+    if (line) return std::nullopt;
+    line = other;
+  }
+  return line && std::abs(*line - at) <= 2 * pixel ? line : std::nullopt;
 }
 
 /// The two points that are farthest apart, as a vector from the first to the second.
@@ -43,11 +47,27 @@ double Calibration::uncertainty(double pixel, double u) const {
   return log ? value(pixel) * std::numbers::ln10 * linear : linear;
 }
 
-Calibration calibrate(const AxisSpec& axis, const std::vector<double>& along,
+std::vector<Place> places_of(const AxisSpec& axis, const std::vector<double>& along,
+                             const std::vector<double>& lines, double pixel) {
+  const bool whole = std::all_of(axis.points.begin(), axis.points.end(), [](const auto& point) {
+    return point.pixel.x == std::round(point.pixel.x) && point.pixel.y == std::round(point.pixel.y);
+  });
+  std::vector<Place> places;
+  for (const double at : along) {
+    const auto line = whole ? meant(at, lines, pixel) : std::nullopt;
+    if (line)
+      places.push_back({*line, pixel * 0.5 / std::sqrt(3.0)});
+    else
+      places.push_back({at, pixel * (whole ? 1 / std::sqrt(3.0) : 0.1)});
+  }
+  return places;
+}
+
+Calibration calibrate(const AxisSpec& axis, const std::vector<Place>& places,
                       const std::string& where) {
   Calibration result;
   result.log = axis.log;
-  const auto n = along.size();
+  const auto n = places.size();
   std::vector<double> values;
   for (const auto& point : axis.points) {
     if (axis.log && !(point.value > 0))
@@ -56,13 +76,13 @@ Calibration calibrate(const AxisSpec& axis, const std::vector<double>& along,
   }
   double mean = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    result.origin += along[i] / static_cast<double>(n);
+    result.origin += places[i].at / static_cast<double>(n);
     mean += values[i] / static_cast<double>(n);
   }
   double tt = 0, tv = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    tt += (along[i] - result.origin) * (along[i] - result.origin);
-    tv += (along[i] - result.origin) * (values[i] - mean);
+    tt += (places[i].at - result.origin) * (places[i].at - result.origin);
+    tv += (places[i].at - result.origin) * (values[i] - mean);
   }
   if (!(tt > 2))
     throw InputError(
@@ -75,14 +95,20 @@ Calibration calibrate(const AxisSpec& axis, const std::vector<double>& along,
                      axis.points[0].value);
   double scatter = 0;  // px
   for (std::size_t i = 0; i < n; ++i)
-    scatter = std::max(scatter, std::abs(along[i] - result.origin - (values[i] - mean) / result.b));
+    scatter =
+        std::max(scatter, std::abs(places[i].at - result.origin - (values[i] - mean) / result.b));
   const double allowed = std::max(3.0, 0.005 * std::sqrt(tt));
   if (scatter > allowed)
     throw InputError("{}: expected points on one {} scale, found one {:.1f} px off", where,
                      axis.log ? "logarithmic" : "linear", scatter);
-  const double u = std::max(pixel_uncertainty(axis), n > 2 ? scatter / std::sqrt(3.0) : 0.0);
-  result.a_u = std::abs(result.b) * u / std::sqrt(static_cast<double>(n));
-  result.b_u = std::abs(result.b) * u / std::sqrt(tt);
+  double uu = 0, ttuu = 0;
+  for (const auto& place : places) {
+    const double u = std::max(place.u, n > 2 ? scatter / std::sqrt(3.0) : 0.0);
+    uu += u * u;
+    ttuu += std::pow((place.at - result.origin) * u, 2);
+  }
+  result.a_u = std::abs(result.b) * std::sqrt(uu) / static_cast<double>(n);
+  result.b_u = std::abs(result.b) * std::sqrt(ttuu) / tt;
   return result;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "validation/digitise/figure.hpp"
 
@@ -20,11 +21,25 @@ struct Calibration {
   double uncertainty(double pixel, double u) const;
 };
 
-/// Least squares through the points (two or more; `along` are their pixels along the axis in the
-/// upright page). A pixel is as uncertain as its digits say: whole numbers by half a pixel, others
-/// by a tenth; more where three or more points scatter more. A scatter above 3 pixels is an error:
-/// the scale is not what the file says. Throws InputError, `where` first.
-Calibration calibrate(const AxisSpec& axis, const std::vector<double>& along,
+/// A calibration point's place along its axis in the upright page [px], with its standard
+/// uncertainty.
+struct Place {
+  double at = 0, u = 0;
+};
+
+/// The places of an axis' points at `along` [px]. Whole pixels were picked by eye, which may take a
+/// line's neighbouring pixel for its middle: uniform within one pixel to each side. Where one of
+/// the long lines across the axis (frame, grid; `lines` are their middles) is within two pixels,
+/// and no other is near, that line was meant, and programs draw it on whole pixels: uniform within
+/// half a pixel. Fractions were measured, to a tenth. `pixel` is the size of the picture's in the
+/// page's.
+std::vector<Place> places_of(const AxisSpec& axis, const std::vector<double>& along,
+                             const std::vector<double>& lines, double pixel);
+
+/// Least squares through the points (two or more); more uncertain than their places say where three
+/// or more scatter more. A scatter above 3 pixels is an error: the scale is not what the file says.
+/// Throws InputError, `where` first.
+Calibration calibrate(const AxisSpec& axis, const std::vector<Place>& places,
                       const std::string& where);
 
 /// The angle of the scan that the calibration points show [degrees anticlockwise]; NaN where the

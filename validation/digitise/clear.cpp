@@ -55,6 +55,17 @@ void clear_rows(cv::Mat coverage, cv::Mat unknown) {
     if (ruled[y]) clear_row(coverage.row(y), unknown.row(y));
 }
 
+/// Whether there is paper round a stroke that sticks in from the left edge of the map: it is a
+/// tick, and not part of a marker or a curve that goes on there.
+bool ends_in_paper(const cv::Mat& coverage, cv::Range rows, int end) {
+  const auto inked = [&](int y, int x) {
+    return y >= 0 && y < coverage.rows && x < coverage.cols && coverage.at<float>(y, x) > 0.3F;
+  };
+  for (int y = rows.start - 2; y < rows.end + 2; ++y)
+    if (inked(y, end + 1) || inked(y, end + 2)) return false;
+  return true;
+}
+
 /// Strokes that stick in from the left edge of the map, up to a twentieth of its width.
 void clear_ticks(cv::Mat coverage, cv::Mat unknown) {
   const int longest = std::max(8, coverage.cols / 20);
@@ -66,13 +77,14 @@ void clear_ticks(cv::Mat coverage, cv::Mat unknown) {
     while (x < coverage.cols && coverage.at<float>(y, x) > 0.12F) ++x;
     if (x == first || x - first > longest) continue;
     // Thin: no more than a few rows start here together.
-    int thick = 1;
-    for (const int step : {-1, 1})
-      for (int row = y + step; row >= 0 && row < coverage.rows &&
-                               coverage.at<float>(row, first) > 0.12F && thick < longest;
-           row += step)
-        ++thick;
-    if (thick > std::max(5, coverage.rows / 60)) continue;
+    int top = y, bottom = y + 1;
+    const auto starts = [&](int row) {
+      return row >= 0 && row < coverage.rows && coverage.at<float>(row, first) > 0.12F;
+    };
+    while (starts(top - 1) && y - top < longest) --top;
+    while (starts(bottom) && bottom - y < longest) ++bottom;
+    if (bottom - top > std::max(5, coverage.rows / 60)) continue;
+    if (!ends_in_paper(coverage, {top, bottom}, x)) continue;
     const auto tick = cv::Range(0, std::min(coverage.cols, x + 1));
     unknown(cv::Range(y, y + 1), tick).setTo(255);
     coverage(cv::Range(y, y + 1), tick).setTo(0);

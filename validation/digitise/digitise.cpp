@@ -17,6 +17,7 @@
 #include "validation/digitise/overlay.hpp"
 #include "validation/digitise/page.hpp"
 #include "validation/digitise/rules.hpp"
+#include "validation/digitise/stroke.hpp"
 #include "validation/digitise/uncertainty.hpp"
 
 namespace bedscope::digitise {
@@ -67,14 +68,18 @@ Page upright(const cv::Mat& picture, const Figure& figure) {
   return {picture, angle + *rest, reduction};
 }
 
-Calibration calibration_of(const AxisSpec& axis, const Page& page, bool is_x,
-                           const std::string& where) {
+/// `across`: the long lines across the axis.
+Calibration calibration_of(const AxisSpec& axis, const Page& page, const std::vector<Rule>& across,
+                           bool is_x, const std::string& where) {
   std::vector<double> along;
   for (const auto& point : axis.points) {
     const auto at = page.to_page(point.pixel);
     along.push_back(is_x ? at.x : at.y);
   }
-  return calibrate(axis, along, fmt::format("{}: axes.{}", where, is_x ? "x" : "y"));
+  std::vector<double> lines;
+  for (const auto& rule : across) lines.push_back(rule.at);
+  return calibrate(axis, places_of(axis, along, lines, 1.0 / page.reduction()),
+                   fmt::format("{}: axes.{}", where, is_x ? "x" : "y"));
 }
 
 cv::Rect whole_pixels(const cv::Rect2d& box, cv::Size page) {
@@ -88,10 +93,13 @@ class Digitiser {
  public:
   Digitiser(const cv::Mat& picture, bool lossy, const Figure& figure, const std::string& where)
       : figure_(figure), where_(where), page_(upright(picture, figure)) {
-    x_ = calibration_of(figure.x, page_, true, where);
-    y_ = calibration_of(figure.y, page_, false, where);
     found_.angle = page_.angle();
-    find_area();
+    const auto inside = box_of_points(figure_, page_);
+    const auto rules =
+        find_rules(ink_of_page(page_, inside), 0.4 * shorter_side(inside), thickest(inside));
+    x_ = calibration_of(figure.x, page_, rules.columns, true, where);
+    y_ = calibration_of(figure.y, page_, rules.rows, false, where);
+    find_area(inside, rules);
     separate_inks(lossy);
     find_left_out();
   }
@@ -111,10 +119,7 @@ class Digitiser {
   }
 
  private:
-  void find_area() {
-    const auto inside = box_of_points(figure_, page_);
-    const auto rules =
-        find_rules(ink_of_page(page_, inside), 0.4 * shorter_side(inside), thickest(inside));
+  void find_area(const cv::Rect2d& inside, const Rules& rules) {
     const auto size = page_.image().size();
     found_.plot_area =
         figure_.plot_area ? page_.to_page(*figure_.plot_area) : plot_area(rules, inside, size);

@@ -125,6 +125,14 @@ std::vector<cv::Rect> find_boxes(const Rules& rules, const cv::Rect& area) {
                          cvCeil(bottom.at - top.at + 6));
       if ((box & area).area() > 0.9 * box.area()) boxes.push_back(box & area);
     }
+  // Boxes of one size, apart from one another, are markers.
+  const auto all = boxes;
+  std::erase_if(boxes, [&](const cv::Rect& box) {
+    return std::any_of(all.begin(), all.end(), [&](const cv::Rect& other) {
+      return (box & other).empty() && std::abs(box.width - other.width) < 3 &&
+             std::abs(box.height - other.height) < 3;
+    });
+  });
   return boxes;
 }
 

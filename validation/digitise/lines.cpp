@@ -5,7 +5,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "validation/digitise/markers.hpp"
+#include "validation/digitise/stroke.hpp"
 
 namespace bedscope::digitise {
 namespace {

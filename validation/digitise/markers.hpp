@@ -35,7 +35,4 @@ std::optional<Template> markers_on_line(const InkMap& map);
 std::vector<std::vector<Marker>> find_markers(const InkMap& map,
                                               const std::vector<Template>& templates);
 
-/// The commonest thickness of strokes in the map [px].
-double stroke_width(const cv::Mat& coverage);
-
 }  // namespace bedscope::digitise

@@ -226,16 +226,30 @@ cv::Mat draw_shape(const Shape& shape, cv::Size2d box, double stroke, cv::Size s
   return coverage;
 }
 
-Reference reference_of(Outline outline, cv::Size2d box) {
+Reference reference_of(const Shape& shape, cv::Size2d box, double stroke) {
+  const auto outline = shape.outline;
   if (!is_triangle(outline)) return {{0, 0}, 0};
-  const bool flat = outline == Outline::triangle || outline == Outline::triangle_down;
-  const double slenderness = flat ? box.height / box.width : box.width / box.height;
-  // As wide as high: the path's middle; its stroke adds more at the tip than at the base, so that
-  // the middle of what is seen lies a little towards the tip (0.31 strokes of a seventh). Flatter:
-  // the centre of mass, a sixth of the height towards the base.
+  const bool standing = outline == Outline::triangle || outline == Outline::triangle_down;
+  const double width = standing ? box.width : box.height;
+  const double height = standing ? box.height : box.width;
+  // By how much the middle of the ink lies off that of the path, towards the tip: half of what the
+  // stroke adds at the tip, 1 / sin(26.57 degrees), less what it adds at the base; uniform
+  // between the extremes.
+  constexpr double mitre = 0.31;
+  double least = 0, most = mitre * stroke / height;
+  if (shape.fill == Fill::filled) {
+    least = -mitre / 12;
+    most = mitre / 6;
+  }
   Reference reference;
-  const double towards_base = slenderness > 0.93 ? 0.038 : 1.0 / 6;
-  reference.uncertain = slenderness > 0.93 ? 0.012 : 0.01;
+  double towards_base = (least + most) / 2;
+  reference.uncertain = (most - least) / std::sqrt(12.0);
+  // An equilateral triangle is 0.87 as high as wide; one drawn as high as wide, on whole pixels,
+  // may lack two pixels of twenty.
+  if (height < 0.9 * width) {
+    towards_base = 1.0 / 6;
+    reference.uncertain = 0.01;
+  }
   switch (outline) {
     case Outline::triangle:
       reference.at = {0, towards_base};

@@ -49,15 +49,18 @@ bool is_strokes(Outline outline);  ///< plus, x, asterisk: no inside
 cv::Mat draw_shape(const Shape& shape, cv::Size2d box, double stroke, cv::Size size,
                    cv::Point2d off = {0, 0});
 
-/// Where the data point is, from the middle of the box of a marker of this outline, as a fraction
-/// of the box's width and height (y down). Plotting programs differ for triangles: those as wide as
-/// high (matplotlib) stand with the middle of their path on the point, flatter ones (gnuplot,
-/// MATLAB) with their centre of mass. `uncertain` is the standard uncertainty of that choice, same
-/// unit.
+/// Where the data point is, from the middle of the box of a marker's ink, as a fraction of the
+/// box's width and height (y down), with its standard uncertainty.
+/// Triangles as wide as high (matplotlib, gnuplot) stand with the middle of their path on the
+/// point. Their ink is no measure of that: a mitred stroke reaches 0.31 of its width farther at the
+/// tip than at the base, a round one does not. `stroke` is that of an open marker [px]; of a filled
+/// one it is not seen: between a white edge of a twelfth of the size and one of its own colour of a
+/// sixth (matplotlib's default). Flatter triangles are taken for equilateral ones that stand with
+/// their centre of mass on the point.
 struct Reference {
   cv::Point2d at;
   double uncertain = 0;
 };
-Reference reference_of(Outline outline, cv::Size2d box);
+Reference reference_of(const Shape& shape, cv::Size2d box, double stroke);
 
 }  // namespace bedscope::digitise

@@ -7,10 +7,10 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
+#include "validation/digitise/stroke.hpp"
+
 namespace bedscope::digitise {
 namespace {
-
-constexpr int margin = 2;  // px of paper round a marker
 
 /// `ink` shifted by (dx, dy) pixels.
 cv::Mat shifted(const cv::Mat& ink, cv::Point2d by, int interpolation = cv::INTER_CUBIC) {
@@ -175,17 +175,10 @@ std::vector<Shape> candidates(const std::optional<Shape>& asked) {
   else if (asked)
     outlines = {asked->outline};
   else
-    outlines = {Outline::circle,
-                Outline::square,
-                Outline::diamond,
-                Outline::triangle,
-                Outline::triangle_down,
-                Outline::triangle_left,
-                Outline::triangle_right,
-                Outline::pentagon,
-                Outline::star,
-                Outline::plus,
-                Outline::x,
+    outlines = {Outline::circle,         Outline::square,        Outline::diamond,
+                Outline::triangle,       Outline::triangle_down, Outline::triangle_left,
+                Outline::triangle_right, Outline::pentagon,      Outline::hexagon,
+                Outline::star,           Outline::plus,          Outline::x,
                 Outline::asterisk};
   std::vector<Shape> shapes;
   for (const auto outline : outlines) {
@@ -251,7 +244,8 @@ Template make_template(const cv::Mat& ink, const Shape& shape) {
     const int quarters = quarter_turns(shape.outline);
     const cv::Mat standing = turned(marker.ink, quarters);
     const auto box = triangle_box(standing);
-    const auto rule = reference_of(Outline::triangle, box.size());
+    const auto rule =
+        reference_of({Outline::triangle, shape.fill}, box.size(), stroke_width(marker.ink));
     const cv::Point2d standing_middle(standing.cols / 2.0, standing.rows / 2.0);
     const cv::Point2d at(box.x + box.width / 2 - standing_middle.x,
                          box.y + box.height * (0.5 + rule.at.y) - standing_middle.y);

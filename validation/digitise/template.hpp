@@ -15,6 +15,8 @@ struct InkMap {
   cv::Mat unknown;   ///< CV_8U, not 0: nothing known
 };
 
+inline constexpr int margin = 2;  ///< px of paper that a template has round its marker
+
 struct Template {
   cv::Mat ink;     ///< CV_32F with a margin of paper; the middle of the image is its origin
   cv::Mat inside;  ///< CV_8U: the marker with its inside, where extra ink counts in full

@@ -9,6 +9,7 @@
 #include "validation/digitise/calibration.hpp"
 #include "validation/digitise/page.hpp"
 #include "validation/digitise/rules.hpp"
+#include "validation/digitise/stroke.hpp"
 #include "validation/digitise/table.hpp"
 #include "validation/digitise/template.hpp"
 
@@ -25,10 +26,10 @@ AxisSpec axis(std::vector<CalibrationPoint> points, bool log = false) {
 
 TEST(Calibration, TwoPointsAreALineAndTheirErrorIsThatOfTheirPixels) {
   const auto spec = axis({{{100, 0}, 2.0}, {{300, 0}, 6.0}});
-  const auto found = calibrate(spec, {100, 300}, "f");
+  const auto found = calibrate(spec, {{100, 0.29}, {300, 0.29}}, "f");
   EXPECT_DOUBLE_EQ(found.value(150), 3.0);
   EXPECT_DOUBLE_EQ(found.pixel(5.0), 250.0);
-  // Whole pixels: 0.29 px each. In the middle the mean of two, at an end that of one.
+  // In the middle the mean of two, at an end that of one.
   EXPECT_NEAR(found.uncertainty(200, 0), 0.02 * 0.29 / std::sqrt(2.0), 1e-12);
   EXPECT_NEAR(found.uncertainty(300, 0), 0.02 * 0.29, 1e-12);
   EXPECT_NEAR(found.uncertainty(200, 1.0), 0.02 * std::hypot(1.0, 0.29 / std::sqrt(2.0)), 1e-12);
@@ -36,20 +37,39 @@ TEST(Calibration, TwoPointsAreALineAndTheirErrorIsThatOfTheirPixels) {
 
 TEST(Calibration, LogAxisIsLinearInTheLogarithm) {
   const auto spec = axis({{{0.5, 0}, 0.01}, {{200.5, 0}, 100}}, true);
-  const auto found = calibrate(spec, {0.5, 200.5}, "f");
+  const auto found = calibrate(spec, {{0.5, 0.1}, {200.5, 0.1}}, "f");
   EXPECT_NEAR(found.value(100.5), 1.0, 1e-12);
   EXPECT_NEAR(found.pixel(10), 150.5, 1e-9);
-  // du/u = ln(10) du_log: one pixel is 0.02 decades; fractions of a pixel were given: 0.1 px each.
+  // du/u = ln(10) du_log: one pixel is 0.02 decades.
   EXPECT_NEAR(found.uncertainty(100.5, 1.0),
               std::log(10.0) * 0.02 * std::hypot(1.0, 0.1 / std::sqrt(2.0)), 1e-12);
 }
 
 TEST(Calibration, SingularAndImpossibleOnesAreErrors) {
-  EXPECT_THROW(calibrate(axis({{{5, 0}, 1.0}, {{5, 9}, 2.0}}), {5, 5}, "f"), InputError);
-  EXPECT_THROW(calibrate(axis({{{5, 0}, 1.0}, {{95, 0}, 1.0}}), {5, 95}, "f"), InputError);
-  EXPECT_THROW(calibrate(axis({{{5, 0}, 0.0}, {{95, 0}, 1.0}}, true), {5, 95}, "f"), InputError);
-  EXPECT_THROW(calibrate(axis({{{0, 0}, 0}, {{50, 0}, 8}, {{100, 0}, 10}}), {0, 50, 100}, "f"),
+  EXPECT_THROW(calibrate(axis({{{5, 0}, 1.0}, {{5, 9}, 2.0}}), {{5, 0.1}, {5, 0.1}}, "f"),
                InputError);
+  EXPECT_THROW(calibrate(axis({{{5, 0}, 1.0}, {{95, 0}, 1.0}}), {{5, 0.1}, {95, 0.1}}, "f"),
+               InputError);
+  EXPECT_THROW(calibrate(axis({{{5, 0}, 0.0}, {{95, 0}, 1.0}}, true), {{5, 0.1}, {95, 0.1}}, "f"),
+               InputError);
+  EXPECT_THROW(calibrate(axis({{{0, 0}, 0}, {{50, 0}, 8}, {{100, 0}, 10}}),
+                         {{0, 0.1}, {50, 0.1}, {100, 0.1}}, "f"),
+               InputError);
+}
+
+TEST(Calibration, APickedPixelStandsForTheOneLineBesideIt) {
+  const auto picked = axis({{{100, 0}, 0}, {{300, 0}, 1}});
+  // The line at 101.5 was meant; at 300 it cannot be told which, and there is none at 500.
+  const auto places = places_of(picked, {100, 300, 500}, {101.5, 299, 301}, 1);
+  EXPECT_DOUBLE_EQ(places[0].at, 101.5);
+  EXPECT_DOUBLE_EQ(places[1].at, 300);
+  EXPECT_DOUBLE_EQ(places[2].at, 500);
+  EXPECT_NEAR(places[0].u, 0.5 / std::sqrt(3.0), 1e-12);
+  EXPECT_NEAR(places[1].u, 1 / std::sqrt(3.0), 1e-12);
+  // What was measured is left as it is.
+  const auto measured = axis({{{100.25, 0}, 0}, {{300, 0}, 1}});
+  EXPECT_DOUBLE_EQ(places_of(measured, {100.25, 300}, {101}, 1)[0].at, 100.25);
+  EXPECT_DOUBLE_EQ(places_of(measured, {100.25, 300}, {101}, 1)[0].u, 0.1);
 }
 
 TEST(Calibration, AngleOfPointsNeedsAxesThatAgree) {
@@ -136,8 +156,26 @@ TEST(Template, ReferenceOfATriangleIsTheMiddleOfItsBox) {
   const Shape shape{Outline::triangle, Fill::filled};
   const auto marker = make_template(draw_shape(shape, {24, 24}, 1, {30, 30}), shape);
   EXPECT_NEAR(marker.reference.x, 0, 0.1);
-  EXPECT_NEAR(marker.reference.y, reference_of(Outline::triangle, {24, 24}).at.y * 24, 0.25);
+  EXPECT_NEAR(marker.reference.y, reference_of(shape, {24, 24}, 1).at.y * 24, 0.25);
   EXPECT_NEAR(marker.box.height, 24, 0.5);
+}
+
+TEST(Shapes, AnOpenTrianglesPointIsBelowTheMiddleOfItsInkByTheMitre) {
+  // Path 20 wide and high; a mitred stroke of 2 adds 1 at the base, 1 / sin(26.57 deg) at the tip.
+  const double shift = (1 / std::sin(std::atan(0.5)) - 1) / 2;
+  const auto rule = reference_of({Outline::triangle, Fill::open}, {23.2, 23.2}, 2);
+  const double mitred = shift / 23.2;  // a round stroke: 0
+  EXPECT_NEAR(rule.at.y, mitred / 2, 0.001);
+  EXPECT_NEAR(rule.uncertain, mitred / std::sqrt(12.0), 0.001);
+  EXPECT_NEAR(reference_of({Outline::triangle_down, Fill::open}, {23.2, 23.2}, 2).at.y, -mitred / 2,
+              0.001);
+}
+
+TEST(Stroke, WidthIsThatOfMostOfTheLength) {
+  cv::Mat ink = cv::Mat::zeros(200, 300, CV_32F);
+  ink.rowRange(50, 53).colRange(20, 280).setTo(1);   // a line of 3
+  ink.rowRange(100, 120).colRange(40, 60).setTo(1);  // a filled marker
+  EXPECT_NEAR(stroke_width(ink), 3, 0.2);
 }
 
 TEST(Table, QuotesNamesAndWritesNan) {

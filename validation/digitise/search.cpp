@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "validation/digitise/search.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <opencv2/imgproc.hpp>
+#include <set>
+
+#include "validation/digitise/stroke.hpp"
+#include "validation/digitise/typical.hpp"
+
+namespace bedscope::digitise {
+namespace {
+
+/// A filter that gives 1 where the ink lies as drawn: the share of the drawn ink that is there,
+/// less 0.7 of the share of ink on the paper inside and round it. Lines and bars through an open
+/// marker cost little, a filled patch much.
+cv::Mat matched_filter(const Template& marker) {
+  cv::Mat paper;
+  cv::dilate(marker.inside, paper, cv::Mat::ones(3, 3, CV_8U));
+  paper.setTo(0, marker.ink > 0.15F);
+  paper.convertTo(paper, CV_32F, 1 / 255.0);
+  const double ink = marker.ink.dot(marker.ink), around = std::max(1.0, cv::sum(paper)[0]);
+  return marker.ink / ink - paper * (0.7 / around);
+}
+
+/// Places where the filter's answer is above `least`, none within half a box.
+std::vector<std::pair<double, cv::Point2d>> peaks(const cv::Mat& coverage, const cv::Mat& filter,
+                                                  double least, double apart) {
+  std::vector<std::pair<double, cv::Point2d>> found;
+  if (filter.cols >= coverage.cols || filter.rows >= coverage.rows) return found;
+  cv::Mat score, highest;
+  cv::filter2D(coverage, score, CV_32F, filter, {filter.cols / 2, filter.rows / 2}, 0,
+               cv::BORDER_CONSTANT);
+  const int reach = 2 * std::max(1, cvRound(apart / 2)) + 1;
+  cv::dilate(score, highest, cv::Mat::ones(reach, reach, CV_8U));
+  for (int y = 0; y < score.rows; ++y)
+    for (int x = 0; x < score.cols; ++x) {
+      const float s = score.at<float>(y, x);
+      if (s > least && s >= highest.at<float>(y, x))
+        found.emplace_back(std::min(1.0F, s),
+                           cv::Point2d(x + (filter.cols % 2) / 2.0, y + (filter.rows % 2) / 2.0));
+    }
+  return found;
+}
+
+/// Programs draw markers as wide as high, but for thin diamonds and flat triangles (an equilateral
+/// one is 0.87 as high as wide); a small one is off by its whole pixels. A sliver of a bar or of a
+/// line, that would explain more ink than a marker, is none.
+bool is_proportioned(Outline outline, cv::Size2d box) {
+  constexpr double rounding = 1.18;
+  const bool lying = outline == Outline::triangle_left || outline == Outline::triangle_right;
+  double narrowest = 1, widest = 1;
+  if (outline == Outline::diamond) narrowest = 0.6;
+  if (is_triangle(outline)) (lying ? narrowest : widest) = lying ? 0.87 : 1 / 0.87;
+  const double ratio = box.width / box.height;
+  return ratio > narrowest / rounding && ratio < widest * rounding;
+}
+
+struct Guess {
+  Shape shape;
+  cv::Size2d box;
+  double stroke = 1, worth = 0;
+  std::vector<cv::Point2d> places;
+};
+
+/// Shapes and sizes that correlate with the map in several places, the best first. The markers'
+/// strokes may be thinner than a line through them.
+std::vector<Guess> rough_guesses(const InkMap& map, const std::vector<Shape>& shapes,
+                                 double stroke) {
+  const double largest = std::min(map.coverage.cols, map.coverage.rows) / 8.0;
+  std::vector<Guess> guesses;
+  for (double size = std::max(5.0, 2.4 * stroke); size < largest; size *= 1.15) {
+    const double scale = std::min(1.0, 11 / size), box = size * scale;
+    cv::Mat small;
+    cv::resize(map.coverage, small, {}, scale, scale, cv::INTER_AREA);
+    for (const auto& shape : shapes)
+      for (const double narrow : {1.0, 0.75})
+        for (const double thin : {1.0, 0.5}) {
+          if (narrow < 1 && shape.outline != Outline::diamond) continue;
+          if (thin < 1 && (stroke < 2 || shape.fill == Fill::filled)) continue;
+          const cv::Size canvas(cvCeil(box) + 2, cvCeil(box) + 2);
+          const auto drawn = bare_template(
+              draw_shape(shape, {box * narrow, box}, std::max(0.5, thin * stroke * scale), canvas),
+              shape);
+          auto found = peaks(small, matched_filter(drawn), 0.55, 0.6 * box);
+          if (found.size() < 2) continue;
+          std::sort(found.begin(), found.end(),
+                    [](const auto& a, const auto& b) { return a.first > b.first; });
+          if (found.size() > 40) found.resize(40);
+          Guess guess{shape, {size * narrow, size}, thin * stroke, 0, {}};
+          for (const auto& [score, place] : found) {
+            guess.worth += (score - 0.5) * (score - 0.5);
+            guess.places.emplace_back(place / scale);
+          }
+          guesses.push_back(guess);
+        }
+  }
+  std::sort(guesses.begin(), guesses.end(),
+            [](const auto& a, const auto& b) { return a.worth > b.worth; });
+  return guesses;
+}
+
+/// The best guess of each shape, stroke and range of sizes (small ones fit in many places, so that
+/// the large would never have their turn), 80 at most.
+std::vector<Guess> best_of_each(const std::vector<Guess>& guesses) {
+  std::set<std::array<int, 4>> had;
+  std::vector<Guess> best;
+  for (const auto& guess : guesses)
+    if (best.size() < 80 &&
+        had.insert({static_cast<int>(guess.shape.outline), static_cast<int>(guess.shape.fill),
+                    cvRound(4 * guess.stroke), cvRound(std::log(guess.box.height) / std::log(1.2))})
+            .second)
+      best.push_back(guess);
+  return best;
+}
+
+InkMap coarse(const InkMap& map, double scale) {
+  InkMap small;
+  cv::resize(map.coverage, small.coverage, {}, scale, scale, cv::INTER_AREA);
+  cv::resize(map.unknown, small.unknown, small.coverage.size(), 0, 0, cv::INTER_AREA);
+  return small;
+}
+
+Template drawn_template(const Guess& guess) {
+  const cv::Size canvas(cvCeil(guess.box.width) + 2, cvCeil(guess.box.height) + 2);
+  return bare_template(draw_shape(guess.shape, guess.box, guess.stroke, canvas), guess.shape);
+}
+
+Guess scaled(Guess guess, double by) {
+  guess.box = guess.box * by;
+  guess.stroke *= by;
+  for (auto& place : guess.places) place *= by;
+  return guess;
+}
+
+/// The map at the sizes at which guesses are tried: a marker of some 16 pixels, its stroke not
+/// below 1.3.
+class Sizes {
+ public:
+  explicit Sizes(const InkMap& map) : map_(map) {}
+
+  struct Level {
+    double scale = 1;
+    InkMap sharp, blurred;
+  };
+
+  const Level& level_for(const Guess& guess) {
+    const double size = std::max(guess.box.width, guess.box.height);
+    const bool thin = guess.shape.fill == Fill::open || is_strokes(guess.shape.outline);
+    const double wanted = std::min(1.0, std::max(16 / size, thin ? 1.3 / guess.stroke : 0.0));
+    const int step = cvFloor(-2 * std::log2(wanted));
+    auto& level = levels_[step];
+    if (level.sharp.coverage.empty()) {
+      const double scale = std::exp2(-step / 2.0);
+      level.sharp = step > 0 ? coarse(map_, scale) : map_;
+      level.scale = static_cast<double>(level.sharp.coverage.cols) / map_.coverage.cols;
+      level.blurred.unknown = level.sharp.unknown;
+      cv::GaussianBlur(level.sharp.coverage, level.blurred.coverage, {}, blur);
+    }
+    return level;
+  }
+
+  static constexpr double blur = 1.0;
+
+ private:
+  const InkMap& map_;
+  std::map<int, Level> levels_;
+};
+
+/// The mean score of the better half of a guess's best places. Blurred, a size off by a tenth
+/// still counts for something; an outline of one pixel would else not lie on that in the picture.
+double resemblance(const Sizes::Level& level, const Guess& guess, bool blurred) {
+  auto marker = drawn_template(guess);
+  if (blurred) cv::GaussianBlur(marker.ink, marker.ink, {}, Sizes::blur);
+  std::vector<double> scores;
+  for (std::size_t i = 0; i < std::min<std::size_t>(6, guess.places.size()); ++i)
+    scores.push_back(
+        std::max(0.0, fit(marker, blurred ? level.blurred : level.sharp, guess.places[i]).score));
+  std::sort(scores.rbegin(), scores.rend());
+  scores.resize((scores.size() + 1) / 2);
+  return std::accumulate(scores.begin(), scores.end(), 0.0) / static_cast<double>(scores.size());
+}
+
+/// The width, height and stroke at which a guess lies best.
+Guess refined(const Sizes::Level& level, Guess guess) {
+  for (const bool blurred : {true, false}) {
+    double most = resemblance(level, guess, blurred);
+    for (double step = blurred ? 0.08 : 0.03; step > (blurred ? 0.03 : 0.01); step /= 2)
+      for (bool better = true; better;) {
+        better = false;
+        for (const auto& [wide, high, thick] :
+             {std::array{1, 1, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 3}})
+          for (const double way : {-step, step}) {
+            Guess trial = guess;
+            trial.box.width *= 1 + wide * way;
+            trial.box.height *= 1 + high * way;
+            trial.stroke *= 1 + thick * way;
+            const double thickest = is_strokes(guess.shape.outline) ? 0.3 : 0.45;
+            if (trial.stroke < 0.5 || trial.stroke > thickest * trial.box.width ||
+                !is_proportioned(trial.shape.outline, trial.box))
+              continue;
+            if (const double now = resemblance(level, trial, blurred); now > most + 2e-3) {
+              most = now;
+              guess = trial;
+              better = true;
+            }
+          }
+      }
+    guess.worth = most;
+    if (most < 0.4) break;
+  }
+  return guess;
+}
+
+/// The three guesses of each shape that explain most ink a marker, among those that resemble.
+std::vector<Guess> best_three_of_each(Sizes& sizes, std::vector<Guess> guesses) {
+  for (auto& guess : guesses) {
+    const auto& level = sizes.level_for(guess);
+    guess.worth = resemblance(level, scaled(guess, level.scale), true);
+  }
+  std::erase_if(guesses, [](const Guess& guess) { return guess.worth < 0.4; });
+  for (auto& guess : guesses) {
+    const auto ink = drawn_template(guess).ink;
+    guess.worth = (guess.worth - 0.4) * ink.dot(ink);
+  }
+  std::stable_sort(guesses.begin(), guesses.end(),
+                   [](const auto& a, const auto& b) { return a.worth > b.worth; });
+  std::map<std::pair<Outline, Fill>, int> had;
+  std::erase_if(guesses, [&](const Guess& guess) {
+    return ++had[{guess.shape.outline, guess.shape.fill}] > 3;
+  });
+  return guesses;
+}
+}  // namespace
+
+std::optional<Template> search_drawn(const InkMap& map, const std::vector<Shape>& shapes) {
+  Sizes sizes(map);
+  const auto guesses =
+      best_of_each(rough_guesses(map, shapes, std::max(1.0, stroke_width(map.coverage))));
+  double most = 0;
+  std::optional<Guess> best;
+  for (const auto& guess : best_three_of_each(sizes, guesses)) {
+    const auto& level = sizes.level_for(guess);
+    const auto finer = refined(level, scaled(guess, level.scale));
+    if (finer.worth < 0.55) continue;
+    const auto marker = drawn_template(finer);
+    const double ink = marker.ink.dot(marker.ink) / (level.scale * level.scale);
+    double worth = 0;
+    int good = 0;
+    for (const auto& place : finer.places) {
+      const auto found = fit(marker, level.sharp, place);
+      if (found.score < 0.6 || found.known < 0.8 || found.least_part < 0.6) continue;
+      worth += ink * (found.score - 0.5);
+      ++good;
+    }
+    if (good < 2 || worth <= most) continue;
+    most = worth;
+    best = scaled(finer, 1 / level.scale);
+  }
+  if (!best) return std::nullopt;
+  const auto marker = make_template(drawn_template(*best).ink, best->shape);
+  return typical(map, marker, best->places).value_or(marker);
+}
+}  // namespace bedscope::digitise
