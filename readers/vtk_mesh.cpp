@@ -15,7 +15,7 @@ namespace {
 
 using Face = std::vector<std::int32_t>;
 
-constexpr int voxel = 11, polyhedron = 42;
+constexpr int voxel = 11, convex_point_set = 41, polyhedron = 42;
 
 // A prism (bottom, top, sides) or a pyramid over a polygon; 0: the type is neither.
 struct Shape {
@@ -58,12 +58,15 @@ class MeshMaker {
         fail("ends at point {} of {}, begins at {}", end, piece.connectivity.size(), begin);
       const double face_end = cell_ < piece.face_ends.size() ? piece.face_ends[cell_] : -1;
       const bool ghost = !piece.ghosts.empty() && piece.ghosts[cell_];
+      const auto labels =
+          std::span(piece.connectivity)
+              .subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin));
       if (!ghost && piece.types[cell_] == polyhedron)
         add_polyhedron(faces_begin, face_end);
+      else if (!ghost && piece.types[cell_] == convex_point_set)
+        add_convex(labels);
       else if (!ghost)
-        add_shape(
-            std::span(piece.connectivity)
-                .subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin)));
+        add_shape(labels);
       begin = end;
       if (face_end >= 0) faces_begin = face_end;
     }
@@ -86,6 +89,9 @@ class MeshMaker {
 
  private:
   static constexpr std::size_t most = std::numeric_limits<std::int32_t>::max();
+  // A box cut by a plane has 10 points at most; the search for faces goes with the fourth power,
+  // and a file of nothing else must not take an hour.
+  static constexpr std::size_t most_convex = 16;
 
   template <class... T>
   [[noreturn]] void fail(fmt::format_string<T...> text, T&&... values) const {
@@ -167,6 +173,74 @@ class MeshMaker {
     ++mesh_.cells;
   }
 
+  // The hull of points without an order (MFiX writes its cells so): each plane through three of
+  // them that has all others on one side bears a face.
+  void add_convex(std::span<const double> labels) {
+    if (labels.size() < 4 || labels.size() > most_convex)
+      fail("a convex set of {} points, expected 4 to {}", labels.size(), most_convex);
+    Face points;
+    for (const double label : labels) points.push_back(point(label));
+    std::vector<Face> faces;
+    for (std::size_t i = 0; i < points.size(); ++i)
+      for (std::size_t j = i + 1; j < points.size(); ++j)
+        for (std::size_t k = j + 1; k < points.size(); ++k) {
+          auto face = face_through({points[i], points[j], points[k]}, points);
+          if (face.size() > 2 && std::find(faces.begin(), faces.end(), face) == faces.end())
+            faces.push_back(std::move(face));
+        }
+    for (auto& face : faces) go_round(face);
+    if (faces.size() < 4) fail("a convex set of points in one plane");
+    turn_outward(faces);
+    for (const auto& face : faces) add_face(face);
+    ++mesh_.cells;
+  }
+
+  // The points in the plane of `three`, in their order; none where it has points on both sides.
+  Face face_through(const Face& three, const Face& points) const {
+    const auto normal = area_of(three);
+    const double size = std::hypot(normal[0], normal[1], normal[2]);
+    if (!(size > 0)) return {};
+    Face face;
+    bool above = false, below = false;
+    for (const auto label : points) {
+      double height = 0, length = 0;
+      for (std::size_t a = 0; a < 3; ++a) {
+        const double from = at(label)[a] - at(three[0])[a];
+        height += normal[a] / size * from;
+        length = std::max(length, std::abs(from));
+      }
+      constexpr double rounding = 1e-9;
+      if (std::abs(height) <= 4 * piece_->resolution + rounding * length)
+        face.push_back(label);
+      else
+        (height > 0 ? above : below) = true;
+    }
+    return above && below ? Face{} : face;
+  }
+
+  // Brings the points of a convex face into the order of its edge.
+  void go_round(Face& face) const {
+    Point middle{}, normal{};
+    for (const auto label : face)
+      for (std::size_t a = 0; a < 3; ++a)
+        middle[a] += at(label)[a] / static_cast<double>(face.size());
+    for (std::size_t k = 2; k < face.size(); ++k) {  // the widest triangle: others may have no area
+      const auto area = area_of({face[0], face[k - 1], face[k]});
+      if (std::hypot(area[0], area[1], area[2]) > std::hypot(normal[0], normal[1], normal[2]))
+        normal = area;
+    }
+    // Seen along the axis that the face is most square to.
+    std::size_t axis = 0;
+    for (std::size_t a = 1; a < 3; ++a)
+      if (std::abs(normal[a]) > std::abs(normal[axis])) axis = a;
+    const auto b = (axis + 1) % 3, c = (axis + 2) % 3;
+    const auto angle = [&](std::int32_t label) {
+      return std::atan2(at(label)[c] - middle[c], at(label)[b] - middle[b]);
+    };
+    std::sort(face.begin(), face.end(),
+              [&](std::int32_t one, std::int32_t other) { return angle(one) < angle(other); });
+  }
+
   // Faces of a closed surface that are all turned alike have areas that add up to nothing.
   void turn_outward(std::vector<Face>& faces) const {
     if (closed(faces)) return;
@@ -244,7 +318,7 @@ double resolution_of(std::span<const Point> points, bool text, bool single) {
 bool is_volume(double vtk_type) {
   if (!(vtk_type >= 0 && vtk_type <= 255) || vtk_type != std::floor(vtk_type)) return false;
   const auto [prism, pyramid] = shape_of(static_cast<int>(vtk_type));
-  return vtk_type == polyhedron || prism + pyramid > 0;
+  return vtk_type == polyhedron || vtk_type == convex_point_set || prism + pyramid > 0;
 }
 
 Mesh mesh_of(std::span<const VtkCells> pieces, const std::string& path) {
