@@ -31,8 +31,17 @@ class FaceMean {
     drag_.correctBoundaryConditions();
     return fvc::reconstruct(fvc::flux(drag_)) - drag_;
   }
-  tmp<volVectorField> pressure(const surfaceScalarField& epsf, const volScalarField& p) const {
-    return fvc::reconstruct(epsf * fvc::snGrad(p) * p.mesh().magSf());
+  /// The same of eps grad p. At the patches by the values there: a gradient that a patch remembers
+  /// is not in a checkpoint.
+  static tmp<volVectorField> pressure(const surfaceScalarField& epsf, const volScalarField& p) {
+    surfaceScalarField gradient(fvc::snGrad(p));
+    forAll(gradient.boundaryField(), patch) {
+      const fvPatchScalarField& there = p.boundaryField()[patch];
+      if (!there.coupled())
+        gradient.boundaryFieldRef()[patch] =
+            there.patch().deltaCoeffs() * (there - there.patchInternalField());
+    }
+    return fvc::reconstruct(epsf * gradient * p.mesh().magSf());
   }
 
  private:
