@@ -9,39 +9,6 @@
 using namespace Foam;
 
 namespace bedscope::coupled {
-namespace {
-
-// Cell values of the mean of a force over the faces, as the pressure gradient of a cell is one.
-// Where the voidage jumps the one would else not balance the other: the velocity would swing from
-// row to row, and the first row of a bed feel half of its drag.
-class FaceMean {
- public:
-  FaceMean(const volScalarField& K, const volVectorField& KUs)
-      : K_(K),
-        KUs_(KUs),
-        drag_(IOobject("drag", K.time().timeName(), K.mesh(), IOobject::NO_READ, IOobject::NO_WRITE,
-                       false),
-              K.mesh(), dimensionedVector(KUs.dimensions(), Zero),
-              extrapolatedCalculatedFvPatchVectorField::typeName) {}
-
-  /// Mean over the faces less value in the cell, of the drag that the particles exert. On boxes it
-  /// adds up to 0 over the cells, so that what they take is what K (U - Us) says.
-  tmp<volVectorField> less_cell(const volVectorField& u) {
-    drag_.primitiveFieldRef() = KUs_.primitiveField() - K_.primitiveField() * u.primitiveField();
-    drag_.correctBoundaryConditions();
-    return fvc::reconstruct(fvc::flux(drag_)) - drag_;
-  }
-  tmp<volVectorField> pressure(const surfaceScalarField& epsf, const volScalarField& p) const {
-    return fvc::reconstruct(epsf * fvc::snGrad(p) * p.mesh().magSf());
-  }
-
- private:
-  const volScalarField& K_;
-  const volVectorField& KUs_;
-  volVectorField drag_;
-};
-
-}  // namespace
 
 void Gas::solve_flow() {
   Fields& f = *f_;
@@ -50,7 +17,6 @@ void Gas::solve_flow() {
   const label skew = piso.getOrDefault<label>("nNonOrthogonalCorrectors", 0);
   volScalarField& eps = f.voidfraction;
   const volScalarField epsNu("epsNu", eps * f.nu);
-  const bool implicit = f.settings.implicit_drag;
 
   // The term with fvm::Sp is 0 where continuity holds; it keeps a uniform velocity uniform while
   // the fluxes are still those of the old voidage.
@@ -58,31 +24,25 @@ void Gas::solve_flow() {
       fvm::ddt(eps, f.U) + fvm::div(f.alphaPhi, f.U) -
       fvm::Sp(fvc::ddt(eps) + fvc::div(f.alphaPhi), f.U) - fvm::laplacian(epsNu, f.U) -
       fvc::div(epsNu * dev2(T(fvc::grad(f.U))), "div((voidfraction*nu*dev2(T(grad(U)))))") - f.KUs);
-  if (implicit)
+  if (f.settings.implicit_drag)
     UEqn += fvm::Sp(f.K, f.U);
   else
     UEqn += f.K * f.U.oldTime();
   UEqn.relax();
-  FaceMean faces(f.K, f.KUs);
-  const surfaceScalarField epsf(fvc::interpolate(eps));
-  if (piso.getOrDefault<bool>("momentumPredictor", true))
-    solve(UEqn == faces.less_cell(f.U.oldTime()) - faces.pressure(epsf, f.p));
+  if (piso.getOrDefault<bool>("momentumPredictor", true)) solve(UEqn == -eps * fvc::grad(f.p));
 
   const auto start = std::chrono::steady_clock::now();
-  // A and H are brought to the faces each by itself: 1/A jumps with the drag, and the pressure drop
-  // would depend on the time step.
-  const volScalarField A(UEqn.A());
-  const volScalarField rAU(1 / A);
-  const surfaceScalarField rAUf(1 / fvc::interpolate(A));
+  const surfaceScalarField epsf(fvc::interpolate(eps));
+  const volScalarField rAU(1 / UEqn.A());
+  const surfaceScalarField rAUf(fvc::interpolate(rAU));
   const volScalarField epsrAU("epsrAU", eps * rAU);
   for (label corrector = 1; corrector <= corrections; ++corrector) {
     volVectorField HbyA(constrainHbyA(rAU * UEqn.H(), f.U, f.p));
-    surfaceScalarField phiHbyA("phiHbyA",
-                               rAUf * (fvc::flux(A * HbyA) + epsf * fvc::ddtCorr(f.U, f.phi)));
+    surfaceScalarField phiHbyA("phiHbyA", fvc::flux(HbyA) + epsf * rAUf * fvc::ddtCorr(f.U, f.phi));
     adjustPhi(phiHbyA, f.U, f.p);
     constrainPressure(f.p, f.U, phiHbyA, epsrAU);
     for (label again = 0; again <= skew; ++again) {
-      fvScalarMatrix pEqn(fvm::laplacian(epsf * epsf * rAUf, f.p) ==
+      fvScalarMatrix pEqn(fvm::laplacian(epsf * fvc::interpolate(epsrAU), f.p) ==
                           fvc::ddt(eps) + fvc::div(epsf * phiHbyA));
       pEqn.setReference(f.pressure_cell, f.pressure_value);
       const bool last = corrector == corrections && again == skew;
@@ -92,8 +52,7 @@ void Gas::solve_flow() {
         f.phi = f.alphaPhi / epsf;
       }
     }
-    f.U =
-        HbyA + rAU * (faces.less_cell(implicit ? f.U : f.U.oldTime()) - faces.pressure(epsf, f.p));
+    f.U = HbyA - epsrAU * fvc::grad(f.p);
     f.U.correctBoundaryConditions();
   }
   f.pressure_seconds +=

@@ -85,7 +85,7 @@ class Run {
     {
       const double before = gas_.pressure_seconds();
       const auto start = Timing::Clock::now();
-      gas_.solve_flow();
+      solve_gas();
       const double pressure = gas_.pressure_seconds() - before;
       timing_.add(Part::pressure, pressure);
       timing_.add(Part::momentum,
@@ -97,6 +97,17 @@ class Run {
     }
     coupling_.act();
     tell();
+  }
+
+  // OpenFOAM's errors say what they are to its own headers alone.
+  void solve_gas() {
+    try {
+      gas_.solve_flow();
+    } catch (const std::exception&) {
+      throw BadInput("OpenFOAM could not solve for the gas at t = " + std::to_string(gas_.time()) +
+                     " s: it blew up (try a smaller deltaT or implicit drag), or CFD/system lacks "
+                     "a scheme or a solver");
+    }
   }
 
   void change_inventory() {

@@ -194,9 +194,10 @@ timestep {self.dt / self.dem_steps:.12g}
             raise RuntimeError(f"{words}: exit {done.returncode}\n{done.stdout[-1500:]}{done.stderr[-1500:]}")
         return done.stdout
 
-    def run(self, *options, ranks=1):
-        if ranks > 1:
+    def run(self, *options, ranks=1, decompose=True):
+        if ranks > 1 and decompose:
             self.shell("decomposePar", "-case", "CFD", "-force")
+        if ranks > 1:
             return self.shell("mpirun", "--oversubscribe", "-n", str(ranks), PROGRAM, *options)
         return self.shell(PROGRAM, *options)
 

@@ -49,3 +49,17 @@ def terminal_velocity(law, eps, d, density, gas_density, viscosity, g=9.81):
         drag = 3 * math.pi * viscosity * d * eps * law(eps, eps * gas_density * u * d / viscosity) * u
         low, high = (u, high) if drag < weight else (low, u)
     return u
+
+
+def rebound(kn, mass, e, speed, gap, step):
+    """Ratio of the speeds after and before a collision of a linear spring and dashpot as LIGGGHTS
+    integrates it: velocity Verlet, whose force is taken at the new place with the velocity of half a
+    step before. `gap`: before the first step [m]; `mass`: effective [kg]; `step` [s]."""
+    eta = -2 * math.log(e) * math.sqrt(kn * mass) / math.sqrt(math.pi**2 + math.log(e) ** 2)
+    place, velocity, force = gap, -speed, 0.0
+    while velocity <= 0 or place < 0 or force:
+        velocity += force / mass * step / 2
+        place += velocity * step
+        force = -kn * place - eta * velocity if place < 0 else 0.0
+        velocity += force / mass * step / 2
+    return velocity / speed
