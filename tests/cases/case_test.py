@@ -175,7 +175,7 @@ class BadInput(Case):
         for scene, parts in (("riser/feed_bottom_printed.toml", ("feed", "1.28", "0.6")),
                              ("riser/feed_side_printed.toml", ("feed", "1.785", "0.6")),
                              ("riser/K2_c.toml", ("cell edge", "0.88", "1")),
-                             ("binary_riser/printed.toml", ("DEM step", "1e-05", "2.7"))):
+                             ("binary_riser/printed.toml", ("DEM step", "1e-05", "1.376e-06"))):
             text = self.refused("make", SCENES + scene, "-o", self.folder + "/no")
             for part in parts:
                 self.assertIn(part, text)
