@@ -39,6 +39,13 @@ void add_columns(std::string_view file, std::string_view class_name,
   }
 }
 
+std::size_t components_of(const std::vector<CloudColumn>& columns, const std::string& file) {
+  std::size_t components = 1;
+  for (const auto& column : columns)
+    if (column.file == file) components = std::max(components, column.component + 1);
+  return components;
+}
+
 // The folder of a cloud in the first folder of the case that has it: ranks may have no parcels.
 std::string cloud_folder(const OpenFoamCase::Impl& impl, const std::string& relative) {
   for (const auto& folder : impl.folders) {
@@ -76,10 +83,10 @@ std::string points_file(const FoamFolder& folder, const std::string& relative) {
   return path.empty() ? plain_or_gz(folder.path + "/" + relative + "/positions") : path;
 }
 
-// A field of the cloud, the values of all ranks behind one another.
+// A field of the cloud, the values of all ranks behind one another, `components` a parcel.
 std::vector<double> read_cloud_field(const OpenFoamCase::Impl& impl, const std::string& relative,
-                                     const std::string& name,
-                                     std::span<const std::size_t> parcels) {
+                                     const std::string& name, std::span<const std::size_t> parcels,
+                                     std::size_t components) {
   std::vector<double> all, values;
   std::vector<std::int32_t> labels;
   for (const auto& folder : impl.folders) {
@@ -97,6 +104,9 @@ std::vector<double> read_cloud_field(const OpenFoamCase::Impl& impl, const std::
                     *foam_type(class_name == "vectorField" ? "vector" : "scalar"), expected,
                     values);
       }
+      if (values.size() != components * parcels[rank])
+        throw FormatError("{}: expected {} a parcel, as other processors have, found a {}", path,
+                          components == 1 ? "one number" : "a vector", class_name);
       if (name == "d" || name == "r")
         for (std::size_t p = 0; p < values.size(); ++p)
           if (values[p] < 0)
@@ -203,9 +213,9 @@ std::vector<std::string> OpenFoamCase::read_cloud(std::size_t time, std::string_
       for (std::size_t p = 0; p < raw[k].size(); ++p) raw[k][p] = points.at[p][column.component];
       continue;
     }
+    const auto components = components_of(columns, column.file);
     if (column.file != last_file)
-      values = read_cloud_field(*impl_, relative, last_file = column.file, parcels);
-    const auto components = raw[k].empty() ? 1 : values.size() / raw[k].size();
+      values = read_cloud_field(*impl_, relative, last_file = column.file, parcels, components);
     for (std::size_t p = 0; p < raw[k].size(); ++p)
       raw[k][p] = values[p * components + column.component];
   }

@@ -93,8 +93,8 @@ class TableReader {
     if (!fault.empty()) {
       if (table_.times.empty() && closed)
         throw FormatError("{}: line {}: {}", path_, fault_line, fault);
-      table_.problems.push_back(
-          fmt::format("{}: line {}: {}: the last row is left out", path_, fault_line, fault));
+      table_.problems.push_back(one_line(
+          fmt::format("{}: line {}: {}: the last row is left out", path_, fault_line, fault)));
     }
     if (!source.cut().empty()) table_.problems.push_back(path_ + ": " + source.cut());
     finish_points();

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <random>
 
 #include "openfoam_samples.hpp"
@@ -148,6 +150,30 @@ TEST(OpenFoamCloud, RanksTogetherHoldTheParcelsOfTheWholeCase) {
     ASSERT_EQ(ranks.size(), whole.size());
     for (std::size_t p = 0; p < whole.size(); ++p) EXPECT_NEAR(ranks[p], whole[p], 1e-15);
   }
+}
+
+TEST(OpenFoamCloud, AFieldOfOtherComponentsOnAnotherRankIsAnError) {
+  if (!corpus_there()) GTEST_SKIP() << "no corpus beside the project";
+  const Folder folder;
+  fs::copy(shared / "corpus/made/openfoam/of_dec_binary", folder.path(),
+           fs::copy_options::recursive);
+  const auto foam = OpenFoamCase::open(folder.path());
+  const auto last = foam.times().size() - 1;
+  const auto cloud = "/" + foam.times()[last].name + "/lagrangian/kinematicCloud/d";
+  const auto path = folder.path("processor0" + cloud);
+  std::ifstream file(path);
+  std::string line;
+  while (std::getline(file, line) &&
+         (line.empty() || line.find_first_not_of("0123456789") != line.npos))
+    ;
+  ASSERT_FALSE(line.empty());
+  std::ofstream(path) << header("vectorField") << line << "{(0 0 1)}\n";
+  const auto error = error_of([&] {
+    Snapshot snapshot;
+    foam.read_cloud(last, "kinematicCloud", {{"d[3]", true}}, snapshot);
+  });
+  EXPECT_NE(error.find("expected a vector a parcel, as other processors have"), std::string::npos)
+      << error;
 }
 
 TEST(OpenFoamCloud, CfdemRadiusIsARadiusAndDiameterIsHalved) {

@@ -163,6 +163,15 @@ TEST(FoamTable, a_cut_last_row_is_left_out_and_said) {
   }
 }
 
+TEST(FoamTable, what_is_said_of_a_damaged_last_row_is_one_printable_line) {
+  TemporaryFolder folder;
+  const auto table =
+      read_foam_table(folder.write("p", std::string(probes) + "0.1 1 2\n0.2 1 \x1b[31m\x01.1e4\n"));
+  EXPECT_EQ(table.times.size(), 1u);
+  ASSERT_EQ(table.problems.size(), 1u);
+  for (const char c : table.problems[0]) EXPECT_TRUE(c >= ' ' && c <= '~') << table.problems[0];
+}
+
 TEST(FoamTable, bad_rows_get_one_line) {
   TemporaryFolder folder;
   const auto error = [&](const std::string& rows) {
