@@ -28,7 +28,7 @@ def case(at, velocity, end, **options):
 
 
 def verify(study):
-    end, begin = 0.6, 0.15
+    end, begin = 1.05, 0.15
     with_ = {"area": SIZE[0] * SIZE[1], "particle_density": RHO, "gas_density": GAS, "gravity": 9.81,
              "mass": ACROSS * DEEP * LAYERS * RHO * 3.14159265 / 6 * D**3}
     for velocity in (0.65,):

@@ -24,6 +24,7 @@ class Study:
         self.folder = pathlib.Path(folder)
         self.folder.mkdir(parents=True)
         lines = [f"# {line}".rstrip() for line in text.strip().splitlines()]
+        self.instants = {}  # runs of which one snapshot is meant
         self.parts = ["\n".join(lines), f"title = {toml(title)}\ncurves = [\"expected\"]"]
         (self.folder / "expected").mkdir()
 
@@ -37,6 +38,8 @@ class Study:
             "domain": {"min": [0, 0, 0], "max": [float(x) for x in case.size]},
             "average": {"from": float(average[0]), "to": float(average[1])}} | keys
         self.table("run", keys)
+        if average[0] == average[1]:
+            self.instants[label] = float(average[0])
 
     def series(self, label, average=None, **named):
         """Numbers in time, {name: (unit, [(time, value) ...])}, as tables of another program."""
@@ -62,6 +65,8 @@ class Study:
 
     def check(self, run, quantity, against, metric, limit, reason, **more):
         """`reason`: why this is the limit."""
+        if run in self.instants:
+            more = {"at": {"time": self.instants[run]}} | more
         self.table("check", {"run": run, "quantity": quantity, "against": against, "metric": metric,
                              "limit": float(limit)} | more, reason)
 
