@@ -33,13 +33,13 @@ int decimals_of(double step) {
   return std::clamp(static_cast<int>(-std::floor(std::log10(step) + 1e-9)), 0, 12);
 }
 
-/// A range of some width: gnuplot refuses an empty one.
+/// A range of some width: gnuplot refuses an empty one, and canvas.cpp writes ten digits of it.
 void widen(double& lo, double& hi) {
   if (!(std::isfinite(lo) && std::isfinite(hi))) {
     lo = 0;
     hi = 1;
   }
-  if (hi - lo > 1e-12 * std::max(std::abs(lo), std::abs(hi))) return;
+  if (hi - lo > 1e-7 * std::max(std::abs(lo), std::abs(hi))) return;
   if (lo == 0) {
     hi = 1;
     return;

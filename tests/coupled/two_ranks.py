@@ -23,7 +23,7 @@ def verify(study):
         if cut:
             study.check(label, "pressure drop", "run:rest, 1 rank", "relative bias", 1e-4,
                         "What is asked of the solver; tolerances of 1e-9 leave some 1e-8.")
-    begin, end = 0.1, 0.3
+    begin, end = 0.1, 0.5
     for ranks in (1, 2):
         label = f"moving, {ranks} rank" + "s" * (ranks - 1)
         one = fluidised_bed.case(study.folder / f"moving_{ranks}", 0.75, end)
@@ -32,5 +32,5 @@ def verify(study):
         assert one.record()["conservation"]["momentum_exchange_worst"] < 1e-11
     for quantity in ("pressure drop", "bed height"):
         study.check("moving, 2 ranks", quantity, "run:moving, 1 rank", "e over u", 3.0, """
-            Three standard uncertainties of the difference (99.7 %), which must be below 10 % of the value to mean something.
-            """, accuracy=0.1)
+            Three standard uncertainties of the difference (99.7 %), which must be below a fifth of the value to mean something.
+            """, accuracy=0.2)

@@ -46,6 +46,8 @@ TEST(RoundedAxis, CoversTheRangeWithWholeTicks) {
 TEST(RoundedAxis, MakesARangeOfAConstantAndOfNothing) {
   EXPECT_LT(rounded_axis(3, 3, 4).lo, 3);
   EXPECT_GT(rounded_axis(3, 3, 4).hi, 3);
+  const Axis close = rounded_axis(71.19, 71.19 * (1 + 1e-9), 4);
+  EXPECT_GT(close.hi - close.lo, 1e-7 * close.hi) << "what differs in the tenth digit is constant";
   EXPECT_EQ(rounded_axis(0, 0, 4).lo, 0) << "a holdup of zero has no negative side";
   const Range none;
   EXPECT_LT(rounded_axis(none.lo, none.hi, 4).lo, rounded_axis(none.lo, none.hi, 4).hi);
