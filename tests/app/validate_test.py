@@ -82,6 +82,13 @@ class Validate(unittest.TestCase):
             self.assertGreaterEqual(check["hi"], check["value"])
             self.assertEqual(check["points_outside"], 1)
 
+    def test_the_runs_of_the_fixed_bed_follow_its_closed_form(self):
+        done = self.validate(PROJECT + "/cases/validation/mu_2022_fixed_bed/study.toml", "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        checks = json.loads(done.stdout)["checks"]
+        self.assertEqual({c["verdict"] for c in checks}, {"holds"})
+        self.assertEqual(len(checks), 20)
+
     def test_what_a_ci_shows(self):
         self.validate(VARAS)
         suite = xml.parse(self.folder + "/out/junit.xml").getroot().find("testsuite")
