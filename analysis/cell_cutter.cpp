@@ -103,7 +103,7 @@ void CellCutter::add(const std::array<Vec3, 4>& tetrahedron) {
 void CellCutter::cut(const Tetrahedron& body, int axis) {
   if (axis == 3) return take(body);
   const auto a = static_cast<std::size_t>(axis);
-  const auto [low, high] = std::ranges::minmax({body[0][a], body[1][a], body[2][a], body[3][a]});
+  const auto [low, high] = std::minmax({body[0][a], body[1][a], body[2][a], body[3][a]});
   if (low == high) return;
   const int from = slab_of(axis, low), to = slab_of(axis, high);
   const bool touches =
