@@ -139,7 +139,7 @@ PANELS = [  # title, x, y, key, settings, series: (key, label), theories: (formu
     ("A bed at rest", "steps in a contact", "rms speed / √(2 g d)", "bed",
      "set logscale xy; set xrange [1.1:12]; set yrange [1e-5:2e3]", [("linear", "linear"), ("hertz", "Hertz")], []),
     ("Overlap at a wall", "stiffness [N/m]", "overlap / radius", "overlap",
-     "set logscale xy; set xrange [15:3e6]; set yrange [2e-3:2e3]",
+     "set logscale xy; set xtics (100, '10^4' 1e4, '10^6' 1e6); set xrange [15:3e6]; set yrange [2e-3:2e3]",
      [("0.1", "0.1 m/s"), ("5.55", "5.55 m/s")],
      [(f"{contacts.largest_overlap(1, v, 0.86) / contacts.D * 2}/sqrt(x)", "theory" if v == 0.1 else "")
       for v in (0.1, 5.55)] + [("0.01", ""), ("1", "")]),
