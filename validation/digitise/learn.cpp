@@ -29,6 +29,11 @@ double worth(const InkMap& map, const Template& marker) {
   return sum;
 }
 
+/// The ink of the markers that are found with a template.
+double ink_of_markers(const InkMap& map, const Template& marker) {
+  return cv::sum(marker.ink)[0] * static_cast<double>(find_markers(map, {marker})[0].size());
+}
+
 }  // namespace
 
 std::optional<Template> learn(const InkMap& map, const MarkerQuery& query) {
@@ -44,13 +49,17 @@ std::optional<Template> learn(const InkMap& map, const MarkerQuery& query) {
   cv::Mat mask;
   cv::compare(map.coverage, 0.28, mask, cv::CMP_GT);
   const double all = cv::sum(map.coverage)[0];
+  constexpr double much = 0.35;  // of the ink: what holds as much can only be the markers
   const auto pieces = pieces_of(mask, map);
   const auto alone = best_group(pieces, map.coverage, shapes, 0.8);
-  if (alone && (alone->ink > 0.35 * all ||
+  if (alone && (alone->ink > much * all ||
                 (alone->pieces.size() >= 3 && (query.shape || alone->resemblance > 0.88))))
     return template_of(*alone, map);
   const auto filled = on_lines(map, mask, shapes);
-  if (filled && recognise(filled->ink, {filled->shape}).second > 0.94) return filled;
+  // Crossings of lines and bars look like small filled markers, but hold little of the ink.
+  if (filled && recognise(filled->ink, {filled->shape}).second > 0.94 &&
+      ink_of_markers(map, *filled) > much * all)
+    return filled;
   const auto drawn = search_drawn(map, query.shape ? shapes : common_shapes());
   if (filled && drawn) return worth(map, *filled) > worth(map, *drawn) ? filled : drawn;
   if (filled) return filled;

@@ -105,7 +105,7 @@ Template template_of(const Group& group, const InkMap& map) {
 
 std::optional<Template> on_lines(const InkMap& map, const cv::Mat& mask,
                                  const std::vector<Shape>& shapes) {
-  const double stroke = stroke_width(map.coverage);
+  const double stroke = line_width(map.coverage);
   for (const double factor : {1.5, 2.2}) {
     const int disc = 2 * cvRound(factor * stroke / 2 + 0.6) + 1;
     const cv::Mat element = cv::getStructuringElement(cv::MORPH_ELLIPSE, {disc, disc});

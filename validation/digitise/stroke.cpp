@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <opencv2/imgproc.hpp>
 
 namespace bedscope::digitise {
 namespace {
@@ -24,19 +25,31 @@ cv::Mat mass_of_rows(const cv::Mat& coverage) {
   return mass;
 }
 
-}  // namespace
+/// The pixels of which no neighbour lies deeper in the ink: the middle of a line all along, of a
+/// filled marker hardly more than its centre.
+cv::Mat ridge_of(const cv::Mat& mask) {
+  cv::Mat depth, deepest;
+  cv::distanceTransform(mask, depth, cv::DIST_L2, 5);
+  cv::dilate(depth, deepest, cv::Mat::ones(3, 3, CV_8U));
+  return (depth >= deepest) & mask;
+}
 
-double stroke_width(const cv::Mat& coverage) {
+/// The commonest thickness of strokes by their length, in steps of an eighth of an octave. The
+/// length is that of the ridge, or the area by the thickness.
+double commonest(const cv::Mat& coverage, bool by_ridge) {
   // Where a stroke is cut by a row and by a column, its thickness is the height of the triangle of
-  // the two cuts. The commonest by length, in steps of an eighth of an octave.
+  // the two cuts.
   const cv::Mat across = mass_of_rows(coverage), down = mass_of_rows(coverage.t()).t();
+  cv::Mat where = coverage >= 0.4;
+  if (by_ridge) where = ridge_of(where);
   std::map<int, double> lengths;
   for (int y = 0; y < coverage.rows; ++y)
     for (int x = 0; x < coverage.cols; ++x) {
-      if (coverage.at<float>(y, x) < 0.4F) continue;
+      if (where.at<uchar>(y, x) == 0) continue;
       const double h = across.at<float>(y, x), v = down.at<float>(y, x);
       const double thickness = h * v / std::hypot(h, v);
-      lengths[cvRound(8 * std::log2(thickness))] += coverage.at<float>(y, x) / thickness;
+      lengths[cvRound(8 * std::log2(thickness))] +=
+          by_ridge ? 1 : coverage.at<float>(y, x) / thickness;
     }
   double most = 0, width = 1;
   for (const auto& [step, length] : lengths) {
@@ -48,4 +61,11 @@ double stroke_width(const cv::Mat& coverage) {
   }
   return std::max(1.0, width);
 }
+
+}  // namespace
+
+double stroke_width(const cv::Mat& coverage) { return commonest(coverage, false); }
+
+double line_width(const cv::Mat& coverage) { return commonest(coverage, true); }
+
 }  // namespace bedscope::digitise

@@ -178,6 +178,13 @@ TEST(Stroke, WidthIsThatOfMostOfTheLength) {
   EXPECT_NEAR(stroke_width(ink), 3, 0.2);
 }
 
+TEST(Stroke, ManyFilledMarkersOnALineDoNotPassForAThickStroke) {
+  cv::Mat ink = cv::Mat::zeros(200, 300, CV_32F);
+  ink.rowRange(98, 102).colRange(10, 290).setTo(1);  // a line of 4
+  for (int x = 25; x < 290; x += 25) cv::circle(ink, {x, 100}, 9, cv::Scalar(1), cv::FILLED);
+  EXPECT_NEAR(line_width(ink), 4, 0.3);
+}
+
 TEST(Table, QuotesNamesAndWritesNan) {
   Figure figure;
   figure.x.name = "z";
