@@ -37,7 +37,9 @@ void lay_over(toml::array& lower, toml::array&& upper) {
 
 void lay_over(toml::table& lower, toml::table&& upper) {
   drop_other_amounts(upper, lower);
-  for (auto&& [key, node] : upper) {
+  for (auto&& item : upper) {
+    const auto& key = item.first;
+    auto& node = item.second;
     auto* under = lower.get(key.str());
     if (under != nullptr && under->is_table() && node.is_table())
       lay_over(*under->as_table(), std::move(*node.as_table()));
