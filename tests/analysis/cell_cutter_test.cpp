@@ -13,14 +13,6 @@ namespace {
 
 constexpr double rounding = 1e-13;
 
-Grid grid_of(Vec3 min, Vec3 max, std::array<int, 3> cells) {
-  Grid grid;
-  grid.min = min;
-  grid.max = max;
-  grid.cells = cells;
-  return grid;
-}
-
 /// Shares by cell of the grid.
 std::vector<double> shares(CellCutter& cutter, const Grid& grid) {
   std::vector<double> found(grid.size(), 0);
@@ -37,7 +29,7 @@ double of_simplex_below(double x, double y, double z) {
 
 TEST(CellCutter, ASimplexInClosedForm) {
   for (const auto& cells : {std::array{1, 1, 1}, {4, 1, 3}, {5, 7, 6}, {1, 20, 1}}) {
-    const auto grid = grid_of({0, 0, 0}, {1.05, 0.9, 1}, cells);
+    const auto grid = Grid{{0, 0, 0}, {1.05, 0.9, 1}, cells};
     CellCutter cutter(grid);
     cutter.begin({0, 0, 0}, {1, 1, 1}, 0);
     cutter.add({Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}});
@@ -62,8 +54,8 @@ TEST(CellCutter, WhatIsCutOffAndWhatIsKeptAddUp) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> place(-0.3, 1.3);
   // The same planes on a grid that holds all of it.
-  const auto inner = grid_of({0, 0, 0}, {1, 1, 1}, {3, 4, 5});
-  const auto outer = grid_of({-1, -1, -1}, {3, 3, 3}, {12, 16, 20});
+  const auto inner = Grid{{0, 0, 0}, {1, 1, 1}, {3, 4, 5}};
+  const auto outer = Grid{{-1, -1, -1}, {3, 3, 3}, {12, 16, 20}};
   for (int n = 0; n < 2000; ++n) {
     std::array<Vec3, 4> body{};
     Vec3 low{9, 9, 9}, high{-9, -9, -9};
@@ -100,7 +92,7 @@ TEST(CellCutter, WhatIsCutOffAndWhatIsKeptAddUp) {
 
 /// An L of two boxes, seen from an apex in the empty corner: its inner walls count as negative.
 TEST(CellCutter, ABodyNeedNotBeConvex) {
-  const Grid grid = grid_of({0, 0, 0}, {2, 1, 2}, {4, 1, 4});
+  const Grid grid = Grid{{0, 0, 0}, {2, 1, 2}, {4, 1, 4}};
   CellCutter cutter(grid);
   cutter.begin({0, 0, 0}, {2, 1, 2}, 0);
   const Vec3 apex{1.7, 0.4, 1.9};
@@ -127,7 +119,7 @@ TEST(CellCutter, ABodyNeedNotBeConvex) {
 }
 
 TEST(CellCutter, OfNothingAndOfWhatIsNoNumberThereAreNoParts) {
-  const auto grid = grid_of({0, 0, 0}, {1, 1, 1}, {2, 2, 2});
+  const auto grid = Grid{{0, 0, 0}, {1, 1, 1}, {2, 2, 2}};
   CellCutter cutter(grid);
   cutter.begin({0, 0, 0}, {1, 1, 1}, 0);
   EXPECT_TRUE(cutter.finish().empty());
