@@ -98,28 +98,31 @@ std::string unusual_moduli(const Scene& scene) {
 
 std::string head(const Scene& scene) {
   const auto& n = scene.numerics;
-  return fmt::format(R"(# Scene: "{}"
+  const double skin = 0.5 * largest_diameter(scene);
+  // Bins as wide as the reach of a contact. LIGGGHTS' own are half of that, in a riser 50 of them a
+  // particle, and each is cleared when neighbours are looked for: 30 % of a step.
+  return fmt::format(R"(# Scene: "{0}"
 # Written by bedscope case make. Run in the folder above: liggghts -in DEM/in.liggghts
 variable folder  index DEM
-variable steps   index {}
+variable steps   index {1}
 variable coupled index 0
 variable resumed index 0
 variable restart index none
 
 atom_style  granular
-atom_modify map array
+atom_modify map array sort 1000 {4:.6g}
 boundary    f f f
 newton      off
 communicate single vel yes
 units       si
 processors  1 1 *
-{}if "${{resumed}} == 0" then "read_data ${{folder}}/particles.data" else "read_restart ${{restart}}"
-neighbor     {:.6g} bin
-neigh_modify delay 0
-timestep     {:.12g}
+{2}if "${{resumed}} == 0" then "read_data ${{folder}}/particles.data" else "read_restart ${{restart}}"
+neighbor     {3:.6g} bin
+neigh_modify delay 0 binsize {4:.6g}
+timestep     {5:.12g}
 )",
                      scene.title, steps(n.end, n.dem_step), unusual_moduli(scene),
-                     0.5 * largest_diameter(scene), n.dem_step);
+                     skin, largest_diameter(scene) + skin, n.dem_step);
 }
 
 std::string walls(const Scene& scene, const ParticleWalls& walls) {
