@@ -97,6 +97,53 @@ TEST(Theory, AFixedBedIsAtItsInletTemperatureBelowAndAtItsStartAboveTheFront) {
   EXPECT_NEAR(value("fixed bed", with, "K", 1), 300, .1);
 }
 
+TEST(Theory, ClosuresOfOneSphereAreTheirFormulasWrittenOut) {
+  EXPECT_NEAR(value("drag Ergun", {{"voidage", .4}, {"reynolds", 100}}, "-"),
+              (150 * .6 + 1.75 * 100) / (18 * .16), 1e-12);
+  const double schiller_naumann = 1 + .15 * std::pow(100, .687);
+  EXPECT_NEAR(value("drag Wen-Yu", {{"voidage", .9}, {"reynolds", 100}}, "-"),
+              schiller_naumann * std::pow(.9, -3.65), 1e-12);
+  EXPECT_NEAR(value("drag Gidaspow", {{"voidage", .9}, {"reynolds", 100}}, "-"),
+              schiller_naumann * std::pow(.9, -3.65), 1e-12);
+  EXPECT_NEAR(value("drag Di Felice", {{"voidage", 1}, {"reynolds", 100}}, "-"),
+              std::pow(.63 + .48, 2) * 100 / 24, 1e-12);
+  // Beetstra et al. (2007), eq. 16, at rest and of a lone sphere.
+  EXPECT_NEAR(value("drag Beetstra", {{"voidage", .5}, {"reynolds", 0}}, "-"),
+              10 * .5 / .25 + .25 * (1 + 1.5 * std::sqrt(.5)), 1e-12);
+  EXPECT_NEAR(value("drag Beetstra", {{"voidage", 1}, {"reynolds", 100}}, "-"),
+              1 + .413 * 100 / 24 * (1 + 8.4 * std::pow(100, -.343)) / (1 + .1), 1e-12);
+  // Gunn (1978) for a lone sphere: 2 (1 + 0.7 Re^0.2 Pr^1/3) + 0.13 Re^0.7 Pr^1/3.
+  EXPECT_NEAR(value("Nusselt Gunn", {{"voidage", 1}, {"reynolds", 100}, {"prandtl", 8}}, "-"),
+              2 * (1 + .7 * std::pow(100, .2) * 2) + .13 * std::pow(100, .7) * 2, 1e-12);
+}
+
+TEST(Theory, ClosuresOfOneContactAreTheRisersAndHertzs) {
+  const double half_mass = .5 * 2500 * std::acos(-1) / 6 * std::pow(.85e-3, 3);
+  const std::map<std::string, double> linear{{"stiffness", 1600}, {"effective_mass", half_mass}};
+  auto with = linear;
+  EXPECT_NEAR(value("contact time", with, "s"), 49.8e-6, .1e-6);  // Mu (2022), the riser's glass
+  with["restitution"] = .96;
+  // m x'' + eta x' + k x = 0 loses exp(-eta t_c / 2 m) of its velocity in half a period.
+  EXPECT_NEAR(std::exp(-value("damping coefficient", with, "kg/s") *
+                       value("contact time", with, "s") / (2 * half_mass)),
+              .96, 1e-12);
+  EXPECT_NEAR(
+      value("stiffness ratio", {{"restitution", .96}, {"tangential_restitution", .33}}, "-"),
+      2. / 7 * (std::pow(std::acos(-1), 2) + std::pow(std::log(.33), 2)) /
+          (std::pow(std::acos(-1), 2) + std::pow(std::log(.96), 2)),
+      1e-12);
+  with = linear;
+  with["impact_velocity"] = 2;  // all of the energy is in the spring: k delta^2 = m v^2
+  EXPECT_NEAR(value("largest overlap", with, "m"), 2 * std::sqrt(half_mass / 1600), 1e-15);
+  const std::map<std::string, double> hertz{{"effective_modulus", 3e5},
+                                            {"effective_radius", 5e-4},
+                                            {"effective_mass", half_mass},
+                                            {"impact_velocity", 2}};
+  const double overlap = value("largest overlap Hertz", hertz, "m");
+  EXPECT_NEAR(8. / 15 * 3e5 * std::sqrt(5e-4) * std::pow(overlap, 2.5), .5 * half_mass * 4, 1e-15);
+  EXPECT_NEAR(value("contact time Hertz", hertz, "s"), 2.9433 * overlap / 2, 1e-4 * overlap);
+}
+
 TEST(Theory, FaultsOfACheckAreOneLine) {
   EXPECT_THROW(value("bed wieght", {}, "Pa"), InputError);
   EXPECT_THROW(value("bed weight", {{"area", 1}}, "Pa"), InputError);
