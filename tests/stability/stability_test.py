@@ -93,6 +93,21 @@ class BedAtRest(Edge):
             self.assertLess(speed, 1e-2)
 
 
+class Riser(Edge):
+    def test_spheres_are_thrown_out_of_a_riser_by_long_steps_only(self):
+        limits = contacts.LIMITS["linear"]
+        run, speed = contacts.riser(self.at(), 1.5, time=0.3)
+        self.assertIsNone(speed)
+        self.assertWarned(run, *limits)
+        run, speed = contacts.riser(self.at(), 4.9, time=0.3)
+        self.assertLess(speed, 1)  # no sphere goes faster than what carries it
+        self.assertWarned(run, *limits)
+        n = 4.9 * 2 / min(run.check()[1][name]["margin"] for name in limits)
+        run, speed = contacts.riser(self.at(), n, time=0.3)
+        self.assertSilent(run, *limits)
+        self.assertLess(speed, 1)
+
+
 class Overlap(Edge):
     LIMIT = "overlap over radius at walls"
 

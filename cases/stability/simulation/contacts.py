@@ -2,6 +2,7 @@
 """Contacts driven over their edge: the step of the particles and their stiffness."""
 import itertools
 import math
+import statistics
 
 from trial import Trial
 
@@ -81,6 +82,29 @@ def bed(folder, model, per_contact, time=0.2, count=216, e=0.6, friction=0.3, im
     if len(last) < count or trial.steps()[-1] != steps:
         return trial, None
     return trial, math.sqrt(sum(row[f"v{a}"] ** 2 for row in last.values() for a in "xyz") / count / (2 * 9.81 * D))
+
+
+def riser(folder, per_contact, time=0.5, velocity=12.0, e=0.96):
+    """A short riser of some 300 spheres that are put back where they leave; `per_contact` steps a contact of two.
+    Its solids' random speed over that of the gas, as root mean square over the second half of `time`:
+    None where spheres were lost or the gas blew up."""
+    stiffness = 2 * KN
+    step = linear_time(stiffness, 8 * MASS / 2, e) / per_contact
+    gas_step = max(1, round(1.5e-4 / step)) * step
+    pause = max(1, round(5e-3 / gas_step)) * gas_step
+    end = round(time / pause) * pause
+    trial = Trial(folder, title="Riser", geometry=dict(width=0.03, depth=0.006, height=0.15),
+                  gas=dict(density=1.2, viscosity=1.8e-5, velocity=velocity),
+                  species=dict(diameter=2 * D, density=RHO), particles=dict(arrangement="uniform", holdup=0.06),
+                  contact=dict(normal_stiffness=stiffness, restitution=e, tangential_restitution=0.33, friction=0.15),
+                  inlet=dict(particles="inventory"), models=dict(drag="gidaspow"),
+                  numerics=dict(grid=[6, 2, 30], dem_step=step, gas_step=gas_step, output=pause, end=end)).make()
+    done = trial.run_coupled()
+    if done.returncode:
+        return trial, None
+    dumps = [list(trial.dump(s).values()) for s in trial.steps() if s * step > end / 2]
+    spread = [statistics.pvariance(row[f"v{a}"] for row in rows) for rows in dumps for a in "xyz"]
+    return trial, math.sqrt(3 * statistics.fmean(spread)) / velocity
 
 
 def overlap(folder, stiffness, speed, e=0.86):

@@ -46,6 +46,12 @@ def beds():
                    [(model, lambda found: LOST if found[1] is None else found[1])])
 
 
+def risers():
+    for n in (1.3, 1.6, 1.9, 2.2, 3, 5, 10, 20):
+        yield ("riser", n, lambda at, n=n: contacts.riser(at, n), contacts.LIMITS["linear"],
+               [("linear", lambda found: LOST if found[1] is None else found[1])])
+
+
 def overlaps():
     for speed, stiffnesses in ((0.1, (25, 100, 400, 1600)), (5.55, (60, 100, 130, 400, 1600, 25600, 1.6e6))):
         for k in stiffnesses:
@@ -113,7 +119,7 @@ def measured(point):
 
 
 def measure(jobs):
-    parts = (temperatures, scalings, grids, drag_steps, overlaps, beds, collisions)  # long ones first
+    parts = (temperatures, risers, scalings, grids, drag_steps, overlaps, beds, collisions)  # long ones first
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         points = itertools.chain.from_iterable(part() for part in parts)
         rows = list(itertools.chain.from_iterable(pool.map(measured, points)))
@@ -138,6 +144,8 @@ PANELS = [  # title, x, y, key, settings, series: (key, label), theories: (formu
       ("linear 0 largest", "linear, largest"), ("hertz 0 largest", "Hertz, largest")], [(f"x>1.58?{E2}/(1-(pi/x)**2/4):1/0", "bound"), ("1", "")]),
     ("A bed at rest", "steps in a contact", "rms speed / √(2 g d)", "bed",
      "set logscale xy; set xrange [1.1:12]; set yrange [1e-5:2e3]", [("linear", "linear"), ("hertz", "Hertz")], []),
+    ("A riser", "steps in a contact", "random speed / gas velocity", "riser",
+     "set logscale xy; set xrange [1.1:25]; set yrange [1e-2:2e3]", [("linear", "linear")], []),
     ("Overlap at a wall", "stiffness [N/m]", "overlap / radius", "overlap",
      "set logscale xy; set xtics (100, '10^4' 1e4, '10^6' 1e6); set xrange [15:3e6]; set yrange [2e-3:2e3]",
      [("0.1", "0.1 m/s"), ("5.55", "5.55 m/s")],
