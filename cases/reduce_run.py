@@ -6,9 +6,11 @@
 
 CASE is a folder that `bedscope case make` wrote and the coupled solver has run. Averages are over the scene's
 numerics.average_from to the end of the run; with --at there is a run of the tables for each of these instants
-instead (transients). --heights are those of the lateral profiles. What was read is named in study.toml by its place in CASE.
+instead (transients). --heights are those of the lateral profiles. Of a riser, series.csv has the solids' flux that the
+solver counted. What was read is named in study.toml by its place in CASE.
 """
 import argparse
+import csv
 import json
 import pathlib
 import shutil
@@ -37,6 +39,23 @@ def study_of(scene, name, instants, heights):
     return "\n".join(lines) + "\n"
 
 
+def write_flux(case, scene, name, tables):
+    """What leaves a riser, counted by the solver in intervals of 0.1 s: over long times what goes up in every layer."""
+    rows = list(csv.DictReader(open(case / "history.csv")))
+    area = scene["geometry"]["width"] * scene["geometry"]["depth"]
+    last = rows[0]
+    with open(tables / "series.csv", "w", newline="") as file:
+        table = csv.writer(file, lineterminator="\n")
+        table.writerow(["run", "series", "unit", "time [s]", "value"])
+        for row in rows:
+            span = float(row["time [s]"]) - float(last["time [s]"])
+            if span < 0.1 - 1e-9:
+                continue
+            left = float(row["left [kg]"]) - float(last["left [kg]"])
+            table.writerow([name, "solids flux", "kg/m2/s", row["time [s]"], f"{left / span / area:.6g}"])
+            last = row
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("case", type=pathlib.Path)
@@ -56,6 +75,8 @@ def main():
     for table in sorted((asked.case / "reduced/tables").glob("*.csv")):
         if table.name not in LEFT_OUT and len(table.read_text().splitlines()) > 1:
             shutil.copy(table, tables)
+    if scene.get("inlet", {}).get("particles", "closed") != "closed":
+        write_flux(asked.case, scene, asked.run.name.replace("_", " "), tables)
     for name in ("scene.toml", "study.toml", "run.json"):
         shutil.copy(asked.case / name, asked.run)
 

@@ -83,6 +83,7 @@ std::string history_of(const Verdict& verdict, const ValidationReport& report) {
 /// What the style sheet of all pages leaves to this one: a table of words that fits on paper.
 constexpr std::string_view own_style = R"(<style>
   .checks td, .checks th { text-align: left; white-space: normal; overflow-wrap: anywhere; min-width: 0; }
+  .checks thead th { overflow-wrap: normal; }
   .checks .number, .checks th:first-child { white-space: nowrap; }
   .checks .metric { overflow-wrap: normal; }
   section p { margin: .2rem 0; }
