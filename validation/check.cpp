@@ -2,6 +2,7 @@
 #include "validation/check.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "validation/metrics.hpp"
@@ -42,6 +43,15 @@ void read_reference(TomlTable& table, Check& check) {
     check.against = table.text("against").value_or("");
 }
 
+/// An error is never below 0, nor a correlation outside -1 to 1.
+void require_reachable(TomlTable& table, const Check& check) {
+  const bool is_error = check.metric == "area" || find_metric(check.metric).small_is_good;
+  if (is_error && *check.limit < 0)
+    table.fail(*table.find("limit"), "check.limit: expected at least 0, found {}", *check.limit);
+  if (!is_error && std::abs(*check.limit) > 1)
+    table.fail(*table.find("limit"), "check.limit: expected -1 to 1, found {}", *check.limit);
+}
+
 void read_measure(TomlTable& table, Check& check) {
   std::set<std::string> names{"area"};
   for (const auto& metric : metrics()) names.emplace(metric.name);
@@ -64,6 +74,7 @@ void read_measure(TomlTable& table, Check& check) {
                "\"baseline:...\" or a number");
   if (!is_shape && !check.limit)
     table.fail(table.raw(), "check.limit is missing: expected a number");
+  if (!is_shape) require_reachable(table, check);
 }
 
 Check read_check(TomlTable& table) {

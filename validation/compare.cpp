@@ -144,6 +144,9 @@ Comparison compare(const Sampled& all, const Curve& reference, std::size_t least
     if (!found.without_error.empty())
       throw InputError("{}: the run's {} has an interval at none of the points to compare",
                        reference.name, all.y.text());
+    if (!found.points.empty())
+      throw InputError("{}: expected {} points to compare at least, found {}", reference.name,
+                       least, found.points.size());
     throw InputError(
         "{}: outside the result: {} from {:.4g} to {:.4g}, the run's from {:.4g} to {:.4g}",
         reference.name, reference.x.text(), reference.points.front().x, reference.points.back().x,

@@ -11,6 +11,7 @@
 
 #include "analysis/csv.hpp"
 #include "readers/toml_table.hpp"
+#include "validation/quantity.hpp"
 #include "validation/sidecar.hpp"
 
 namespace bedscope::validation {
@@ -88,6 +89,9 @@ Columns find_columns(const std::string& path, const analysis::CsvReader& rows, S
   columns.u_y = uncertainty_column(path, rows, y, sidecar.u_y);
   columns.y_lo = column_of(rows, y + "_lo");
   columns.y_hi = column_of(rows, y + "_hi");
+  if (columns.y_lo.has_value() != columns.y_hi.has_value())
+    throw FormatError("{}: line 1: expected both ends of error bars, found \"{}\" alone", path,
+                      header[columns.y_lo ? *columns.y_lo : *columns.y_hi]);
   for (const auto k : plain)
     if (k != columns.x && k != columns.y && columns.u_x != k && columns.u_y != k)
       columns.parameters.push_back(k);
@@ -211,7 +215,9 @@ void set_uncertainties(const Sidecar& sidecar, bool has_bars, Curve& curve) {
     const auto [low, high] = std::minmax_element(
         curve.points.begin(), curve.points.end(),
         [&](const CurvePoint& a, const CurvePoint& b) { return a.*value < b.*value; });
-    const double range = *high.*value - *low.*value;
+    // A single value has no range; what it was read from reached as far at least.
+    const bool has_range = *high.*value > *low.*value;
+    const double range = has_range ? *high.*value - *low.*value : std::abs(*high.*value);
     const double assumed = digitised ? share * range : 0;
     for (auto& point : curve.points) {
       if (rule.absolute) point.*u = *rule.absolute;
@@ -221,10 +227,11 @@ void set_uncertainties(const Sidecar& sidecar, bool has_bars, Curve& curve) {
     if (rule.stated()) return;
     curve.assumptions.push_back(one_line(
         digitised
-            ? fmt::format("{}: uncertainty of {} not stated; {:.1g}{} ({} % of its range) "
+            ? fmt::format("{}: uncertainty of {} not stated; {:.1g}{} ({} % of its {}) "
                           "assumed as for a digitised plot",
                           curve.name, title.name, assumed,
-                          title.unit == "-" ? "" : " " + title.unit, share * 100)
+                          title.unit == "-" ? "" : " " + title.unit, share * 100,
+                          has_range ? "range" : "value")
             : fmt::format("{}: uncertainty of {} not stated; taken as 0", curve.name, title.name)));
   };
   fill(sidecar.u_x, curve.x, &CurvePoint::x, &CurvePoint::u_x, assumed_u_x);
@@ -261,6 +268,9 @@ std::vector<std::string> wanted_values(const CurveSet& set, const std::string& s
                        choices(set));
     wanted.push_back(value);
   }
+  std::set<std::string> parameters;
+  for (const auto& parameter : set.parameters) parameters.insert(parameter.title.name);
+  require_place_keys(at, parameters);
   if (!chosen.empty())
     throw InputError("{}: expected a choice among {}, found {}", selection,
                      set.parameters.empty() ? "nothing" : choices(set), chosen.begin()->first);

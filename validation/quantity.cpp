@@ -14,6 +14,16 @@
 #include "validation/quantity_parts.hpp"
 
 namespace bedscope::validation {
+
+void require_place_keys(const std::map<std::string, double>& at,
+                        const std::set<std::string>& others) {
+  std::set<std::string> known(place_keys.begin(), place_keys.end());
+  known.insert(others.begin(), others.end());
+  for (const auto& [key, value] : at)
+    if (!known.contains(key))
+      throw InputError("unknown key at.{}; the nearest known one is at.{}", key,
+                       readers::nearest_name(key, known));
+}
 namespace {
 
 constexpr std::array all_quantities{

@@ -2,7 +2,9 @@
 // The quantities of a run that can be judged, by the names that a study uses.
 #pragma once
 
+#include <array>
 #include <map>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,6 +21,14 @@ struct Place {
                                      ///< of an instant; probe, from 1
   std::string species = "all";
 };
+
+/// The keys of `at` that a run knows; others can only be parameters of a curve.
+inline constexpr std::array<std::string_view, 4> place_keys{"height", "probe", "time", "x"};
+
+/// Throws InputError naming the nearest, where a key of `at` is neither a place's nor one of
+/// `others`.
+void require_place_keys(const std::map<std::string, double>& at,
+                        const std::set<std::string>& others = {});
 
 /// `of` gives the values of a run; a new quantity is a line of the table in quantity.cpp.
 struct NamedQuantity {

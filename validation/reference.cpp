@@ -170,16 +170,25 @@ void require_reference(const Check& check, std::span<const std::string> labels,
     if (std::find(labels.begin(), labels.end(), label) == labels.end())
       throw InputError("no run \"{}\", there are \"{}\"", label, fmt::join(labels, "\", \""));
   };
+  const auto require_another = [&](const std::string& label) {
+    require_run(label);
+    if (check.run == label || (check.run.empty() && labels.size() == 1))
+      throw InputError("run:{}: a run against itself, expected another one", label);
+  };
   try {
     if (!check.run.empty()) require_run(check.run);
-    if (check.against.empty()) return;
+    if (check.against.empty()) return require_place_keys(check.place.at);
+    const bool is_curve = !check.against.starts_with("theory:") &&
+                          !check.against.starts_with("baseline:") &&
+                          !check.against.starts_with("run:");
+    if (!is_curve) require_place_keys(check.place.at);
     if (check.against.starts_with("theory:"))
       require_theory(after("theory:"), check.with);
     else if (check.against.starts_with("baseline:"))
       baseline_folder(after("baseline:"), study);
     else if (check.against.starts_with("run:") && check.against != "run:others")
-      require_run(after("run:"));
-    else if (!check.against.starts_with("run:"))
+      require_another(after("run:"));
+    else if (is_curve)
       curves.curve(check.against, check.place.at);
   } catch (const MissingCurve&) {
     return;

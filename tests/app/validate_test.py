@@ -208,6 +208,11 @@ class Validate(unittest.TestCase):
                              ({"run": '"b"'}, 'no run "b"'),
                              ({"species": '"7"'}, 'no species "7"'),
                              ({"limit": '"a"'}, "limit"),
+                             ({"limit": "-0.1"}, "expected at least 0"),
+                             ({"metric": '"rank correlation"', "limit": "2"}, "expected -1 to 1"),
+                             ({"at": "{ hight = 1 }"}, "nearest known one is at.height"),
+                             ({"against": "0.1", "at": "{ U = 5.55 }"}, "unknown key at.U"),
+                             ({"against": '"run:a"'}, "a run against itself"),
                              ({"accuracy": "-1"}, "accuracy"),
                              ({"uncertainty": "-1"}, "uncertainty")):
             keys = {k: v for k, v in (good | change).items() if v is not None}
@@ -229,6 +234,7 @@ class Validate(unittest.TestCase):
                 ("z [m],holdup [-]\n", "", "no rows"),
                 ("", "", "bad.csv"),
                 ("z [m],holdup [-]\n0.1,a\n", "", "line 2"),
+                ("z [m],holdup [-],holdup_lo [-]\n0.1,0.2,0.1\n", "", "expected both ends"),
                 ("z [m],holdup [-]\n0.1,nan\n", "", "line 2"),
                 ("z [m],holdup [-]\n0.1,0.2,3\n", "", "line 2"),
                 ("z [m],holdup [-]\n7,0.2\n8,0.3\n", "", "outside the result: z [m] from 7 to 8"),

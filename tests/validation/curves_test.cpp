@@ -100,6 +100,16 @@ TEST(OwnCurves, AreReadByTheSameRules) {
   EXPECT_EQ(open(shipped).curve(folder.path("mine.csv")).points.size(), 2U);
 }
 
+TEST(OwnCurves, ASingleDigitisedValueIsNotTakenAsExact) {
+  const TemporaryFolder folder;
+  folder.write("one.csv", "z [m],holdup [-]\n0.2,0.05\n");
+  const auto curve = open(folder.path("")).curve("one");
+  EXPECT_DOUBLE_EQ(curve.points.at(0).u_y, 0.01 * 0.05);
+  EXPECT_DOUBLE_EQ(curve.points.at(0).u_x, 0.005 * 0.2);
+  ASSERT_EQ(curve.assumptions.size(), 2U);
+  EXPECT_NE(curve.assumptions[1].find("1 % of its value"), std::string::npos);
+}
+
 TEST(OwnCurves, ErrorBarsAreIntervals) {
   const TemporaryFolder folder;
   folder.write("bars.csv", "z [m],holdup [-],holdup_lo [-],holdup_hi [-]\n0.1,0.05,0.04,0.06\n");
