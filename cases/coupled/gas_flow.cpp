@@ -18,11 +18,13 @@ void Gas::solve_flow() {
   volScalarField& eps = f.voidfraction;
   const volScalarField epsNu("epsNu", eps * f.nu);
 
+  const volScalarField storage(fvc::ddt(eps));
+
   // The term with fvm::Sp is 0 where continuity holds; it keeps a uniform velocity uniform while
   // the fluxes are still those of the old voidage.
   fvVectorMatrix UEqn(
       fvm::ddt(eps, f.U) + fvm::div(f.alphaPhi, f.U) -
-      fvm::Sp(fvc::ddt(eps) + fvc::div(f.alphaPhi), f.U) - fvm::laplacian(epsNu, f.U) -
+      fvm::Sp(storage + fvc::div(f.alphaPhi), f.U) - fvm::laplacian(epsNu, f.U) -
       fvc::div(epsNu * dev2(T(fvc::grad(f.U))), "div((voidfraction*nu*dev2(T(grad(U)))))") - f.KUs);
   if (f.settings.implicit_drag)
     UEqn += fvm::Sp(f.K, f.U);
@@ -36,14 +38,15 @@ void Gas::solve_flow() {
   const volScalarField rAU(1 / UEqn.A());
   const surfaceScalarField rAUf(fvc::interpolate(rAU));
   const volScalarField epsrAU("epsrAU", eps * rAU);
+  const surfaceScalarField conductance(epsf * fvc::interpolate(epsrAU));
+  const surfaceScalarField of_old_flux(epsf * rAUf * fvc::ddtCorr(f.U, f.phi));
   for (label corrector = 1; corrector <= corrections; ++corrector) {
     volVectorField HbyA(constrainHbyA(rAU * UEqn.H(), f.U, f.p));
-    surfaceScalarField phiHbyA("phiHbyA", fvc::flux(HbyA) + epsf * rAUf * fvc::ddtCorr(f.U, f.phi));
+    surfaceScalarField phiHbyA("phiHbyA", fvc::flux(HbyA) + of_old_flux);
     adjustPhi(phiHbyA, f.U, f.p);
     constrainPressure(f.p, f.U, phiHbyA, epsrAU);
     for (label again = 0; again <= skew; ++again) {
-      fvScalarMatrix pEqn(fvm::laplacian(epsf * fvc::interpolate(epsrAU), f.p) ==
-                          fvc::ddt(eps) + fvc::div(epsf * phiHbyA));
+      fvScalarMatrix pEqn(fvm::laplacian(conductance, f.p) == storage + fvc::div(epsf * phiHbyA));
       pEqn.setReference(f.pressure_cell, f.pressure_value);
       const bool last = corrector == corrections && again == skew;
       pEqn.solve(f.mesh.solver(f.p.select(last)));
