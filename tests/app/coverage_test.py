@@ -26,7 +26,8 @@ BEDSCOPE = sys.argv[1]
 CASES = int(sys.argv[2]) if len(sys.argv) > 2 else 40
 POINTS = 24
 Z = np.linspace(0.05, 1.5, POINTS)
-METRICS = ("relative rmse", "relative bias", "relative max error", "max error", "rank correlation")
+METRICS = ("relative rmse", "relative bias", "relative max error", "max error", "rank correlation", "model bias",
+           "model scatter")
 
 
 def spearman(a, b):
@@ -36,9 +37,11 @@ def spearman(a, b):
 
 def truth_of(metric, result, reference):
     e, m = result - reference, reference.mean()
+    ratio = np.log(result / reference)
     return {"relative rmse": math.sqrt((e ** 2).mean()) / m, "relative bias": abs(e.mean()) / m,
             "relative max error": abs(e).max() / m, "max error": abs(e).max(),
-            "rank correlation": spearman(result, reference)}[metric]
+            "rank correlation": spearman(result, reference), "model scatter": ratio.std(ddof=1),
+            "model bias": abs(math.exp(ratio.mean() + ratio.var(ddof=1) / 2) - 1)}[metric]
 
 
 def draw(rng, u, together):
