@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Reduces a run of a scene to what data/runs/ keeps of it: tables with error bars, the scene, costs.
 
-    cases/reduce_run.py CASE data/runs/NAME [--at SECONDS,SECONDS,...] [--bedscope PROGRAM]
+    cases/reduce_run.py CASE data/runs/NAME [--at SECONDS,SECONDS,... | --blocks N] [--cell LATERAL,UP] [--bedscope PROGRAM]
 
 CASE is a folder that `bedscope case make` wrote and the coupled solver has run. Averages are over the scene's
 numerics.average_from to the end of the run; with --at there is a run of the tables for each of these instants
-instead (transients). What was read is named in study.toml by its place in CASE.
+instead (transients), with --blocks one for each of N parts of the averaging window. Cells are those of the gas, or of the
+size [m] that is given. What was read is named in study.toml by its place in CASE.
 """
 import argparse
 import json
@@ -20,18 +21,28 @@ import tomllib
 LEFT_OUT = {"clusters.csv", "voidage_check.csv", "bed_height.csv"}
 
 
-def study_of(scene, name, instants):
+def windows_of(numerics, name, instants, blocks):
+    begin, end, output = numerics.get("average_from", 0), numerics["end"], numerics["output"]
+    if instants:
+        return [(f"{name}, {t:g} s", t, t) for t in instants]
+    if blocks == 1:
+        return [(name, begin, end)]
+    edge = [begin + (end - begin) * n / blocks for n in range(blocks + 1)]
+    return [(f"{name}, block {n + 1}", edge[n] + output / 2, edge[n + 1] + output / 2) for n in range(blocks)]
+
+
+def study_of(scene, name, instants, blocks=1, cell=None):
     box, numerics, outlet = scene["geometry"], scene["numerics"], scene.get("outlet", {})
     top = box["height"] + (outlet.get("height", 0) if outlet.get("place", "top") != "top" else 0)
     across, _, up = numerics["grid"]
+    cell = cell or [box["width"] / across, box["height"] / up]
     lines = [f"title = {json.dumps(scene['title'])}", "[scene]",
              f"domain = {{ min = [0, 0, 0], max = [{box['width']}, {box['depth']}, {top:.10g}] }}",
-             f"cell = [{box['width'] / across:.10g}, {box['height'] / up:.10g}]",
+             f"cell = [{cell[0]:.10g}, {cell[1]:.10g}]", f"gravity = {scene.get('gravity', 9.81)}",
              f"density = {scene['species'][0]['density']}", f"gas_density = {scene['gas']['density']}"]
     if top > 1:
         lines += ["[profiles]", "heights = [0.8, 1.1, 1.4]"]  # those of the experiment, data/curves/varas_2017
-    windows = [(f"{name}, {t:g} s", t, t) for t in instants] or [(name, numerics.get("average_from", 0), numerics["end"])]
-    for label, begin, end in windows:
+    for label, begin, end in windows_of(numerics, name, instants, blocks):
         lines += ["[[run]]", f"label = {json.dumps(label)}", 'particles = "DEM/post/dump*.liggghts_run"', 'gas = "CFD"',
                   f"time_step = {numerics['dem_step']}", f"average = {{ from = {begin}, to = {end} }}"]
     return "\n".join(lines) + "\n"
@@ -42,13 +53,15 @@ def main():
     parser.add_argument("case", type=pathlib.Path)
     parser.add_argument("run", type=pathlib.Path)
     parser.add_argument("--at", type=lambda text: [float(t) for t in text.split(",")], default=[])
+    parser.add_argument("--blocks", type=int, default=1)
+    parser.add_argument("--cell", type=lambda text: [float(edge) for edge in text.split(",")])
     parser.add_argument("--bedscope", default="bedscope")
     asked = parser.parse_args()
     record = json.loads((asked.case / "run.json").read_text())
     if record["state"] != "done":
         sys.exit(f"{asked.case}/run.json: expected state \"done\", found \"{record['state']}\"")
     scene = tomllib.loads((asked.case / "scene.toml").read_text())
-    (asked.case / "study.toml").write_text(study_of(scene, asked.run.name.replace("_", " "), asked.at))
+    (asked.case / "study.toml").write_text(study_of(scene, asked.run.name.replace("_", " "), asked.at, asked.blocks, asked.cell))
     subprocess.run([asked.bedscope, "analyse", "study.toml", "-o", "reduced", "--tables-only", "--quiet"], cwd=asked.case, check=True)
     tables = asked.run / "tables"
     tables.mkdir(parents=True, exist_ok=True)
