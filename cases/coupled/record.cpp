@@ -24,6 +24,11 @@ void replace_file(const std::string& name, const std::string& text) {
   std::filesystem::rename(name + ".new", name);
 }
 
+// Of a checkpoint that a program wrote which did not count it, or passed on that one had not.
+double number_or_nan(const nlohmann::json& json, const char* key) {
+  return json.contains(key) && json[key].is_number() ? double(json[key]) : NAN;
+}
+
 // The header and the rows up to a time.
 std::string rows_until(double time) {
   std::ifstream file(history_file);
@@ -37,7 +42,7 @@ std::string rows_until(double time) {
 
 }  // namespace
 
-Record::Record(MPI_Comm comm, const Gas& gas) {
+Record::Record(MPI_Comm comm, const Gas& gas) : comm_(comm) {
   int rank;
   MPI_Comm_rank(comm, &rank);
   MPI_Comm_size(comm, &ranks_);
@@ -108,13 +113,20 @@ void Record::progress(const Gas& gas, long particles, const Timing& timing) {
   std::fflush(stdout);
 }
 
-nlohmann::json Record::costs(const Timing& timing) const {
+double Record::cpu_seconds() const {
+  double seconds = Timing::cpu();
+  MPI_Allreduce(MPI_IN_PLACE, &seconds, 1, MPI_DOUBLE, MPI_SUM, comm_);
+  return tally_.cpu_seconds + seconds;
+}
+
+nlohmann::json Record::costs(const Timing& timing, double cpu) const {
   nlohmann::json parts;
   for (std::size_t n = 0; n < part_names.size(); ++n)
     parts[part_names[n]] = tally_.part_seconds[n] + timing.seconds(Part(n));
   const double wall = tally_.seconds + timing.elapsed();
   const double dem = parts["DEM"], flow = double(parts["momentum"]) + double(parts["pressure"]);
   return {{"wall_seconds", wall},
+          {"cpu_seconds", cpu},
           {"seconds", parts},
           {"ms_per_step", 1e3 * wall / double(std::max(1l, tally_.steps))},
           {"particle_steps_per_second", dem > 0 ? tally_.particle_steps / dem : 0},
@@ -124,6 +136,7 @@ nlohmann::json Record::costs(const Timing& timing) const {
 void Record::write_json(const Gas& gas, const ParticleSums& sums, const Feed& feed,
                         const Timing& timing, const std::string& state) const {
   const long floor_hits = gas.floor_hits();
+  const double cpu = cpu_seconds();
   if (!first_) return;
   const Settings& settings = gas.settings();
   nlohmann::ordered_json json;
@@ -163,15 +176,16 @@ void Record::write_json(const Gas& gas, const ParticleSums& sums, const Feed& fe
   if (settings.energy)
     json["conservation"].update({{"heat_from_gas_to_particles", tally_.heat_from_gas},
                                  {"heat_carried_in_by_gas", tally_.heat_carried}});
-  json["costs"] = costs(timing);
+  json["costs"] = costs(timing, cpu);
   replace_file("run.json", json.dump(1) + '\n');
 }
 
 void Record::print_costs(const Timing& timing) const {
+  const double cpu = cpu_seconds();
   if (!first_) return;
-  const nlohmann::json cost = costs(timing);
+  const nlohmann::json cost = costs(timing, cpu);
   const double wall = cost["wall_seconds"];
-  std::printf("%ld gas steps, %.1f s, %.2f ms a step", tally_.steps, wall,
+  std::printf("%ld gas steps, %.1f s, %.1f s of CPU, %.2f ms a step", tally_.steps, wall, cpu,
               double(cost["ms_per_step"]));
   for (const char* name : part_names) {
     const double seconds = cost["seconds"][name];
@@ -202,16 +216,24 @@ nlohmann::json Record::saved(const Timing& timing) const {
           {"heat_carried", t.heat_carried},
           {"worst_courant", t.worst_courant},
           {"seconds", t.seconds + timing.elapsed()},
+          {"cpu_seconds", cpu_seconds()},
           {"parts", parts}};
 }
 
 void Record::restore(const nlohmann::json& j) {
-  tally_ = {j.at("steps"),          j.at("dem_steps"),
-            j.at("particle_steps"), j.at("worst_continuity"),
-            j.at("worst_exchange"), j.at("gas_in"),
-            j.at("gas_out"),        j.at("gas_stored"),
-            j.at("heat_from_gas"),  j.at("heat_carried"),
-            j.at("worst_courant"),  j.at("seconds"),
+  tally_ = {j.at("steps"),
+            j.at("dem_steps"),
+            j.at("particle_steps"),
+            j.at("worst_continuity"),
+            j.at("worst_exchange"),
+            j.at("gas_in"),
+            j.at("gas_out"),
+            j.at("gas_stored"),
+            j.at("heat_from_gas"),
+            j.at("heat_carried"),
+            j.at("worst_courant"),
+            j.at("seconds"),
+            number_or_nan(j, "cpu_seconds"),
             j.at("parts")};
 }
 

@@ -25,7 +25,8 @@ struct Tally {
   double heat_from_gas = 0;        ///< to the particles [J]
   double heat_carried = 0;         ///< into the domain by the gas, less out [J]
   double worst_courant = 0;
-  double seconds = 0;  ///< wall clock of earlier parts of a resumed run
+  double seconds = 0;      ///< wall clock of earlier parts of a resumed run
+  double cpu_seconds = 0;  ///< CPU time of these, of all ranks; NaN where they did not count it
   std::array<double, part_names.size()> part_seconds{};
 };
 
@@ -38,15 +39,17 @@ class Record {
   void row(const Gas& gas, const ParticleSums& sums, const GasBalance& balance, const Feed& feed);
   void progress(const Gas& gas, long particles, const Timing& timing);
   void write_json(const Gas& gas, const ParticleSums& sums, const Feed& feed, const Timing& timing,
-                  const std::string& state) const;
-  void print_costs(const Timing& timing) const;
+                  const std::string& state) const;  ///< collective
+  void print_costs(const Timing& timing) const;     ///< collective
 
-  nlohmann::json saved(const Timing& timing) const;
+  nlohmann::json saved(const Timing& timing) const;  ///< collective
   void restore(const nlohmann::json& json);
 
  private:
-  nlohmann::json costs(const Timing& timing) const;
+  double cpu_seconds() const;  ///< of all ranks; collective
+  nlohmann::json costs(const Timing& timing, double cpu) const;
 
+  MPI_Comm comm_;
   bool first_;  ///< rank 0 alone tells
   int ranks_ = 1;
   long cells_ = 0;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Wall clock of the parts of a run.
+// Wall clock of a run and its parts, and the CPU time (user and system).
 #pragma once
 
 #include <array>
 #include <chrono>
+#include <ctime>
 
 namespace bedscope::coupled {
 
@@ -32,6 +33,7 @@ class Timing {
   double elapsed() const {  ///< since the start of the run [s]
     return std::chrono::duration<double>(Clock::now() - start_).count();
   }
+  static double cpu() { return double(std::clock()) / CLOCKS_PER_SEC; }  ///< of this process [s]
 
  private:
   Clock::time_point start_ = Clock::now();

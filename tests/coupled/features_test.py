@@ -4,6 +4,7 @@ import math
 import os
 import pathlib
 import re
+import resource
 import signal
 import subprocess
 import time
@@ -44,6 +45,23 @@ class Killed(unittest.TestCase):
         self.assertEqual(list(one), list(other))
         self.assertEqual([n for n in one if one[n] != other[n]], [])
         print(f"killed after step {rows}, resumed at {kept}; {len(one)} files equal to the bit")
+
+
+class Costs(unittest.TestCase):
+    def test_cpu_seconds_are_those_of_all_ranks_and_of_all_parts(self):
+        def used():
+            spent = resource.getrusage(resource.RUSAGE_CHILDREN)
+            return spent.ru_utime + spent.ru_stime
+        case = restart.case(folder(self), 0.004)
+        case.shell("decomposePar", "-case", "CFD")
+        before = used()
+        case.run(ranks=2, decompose=False)
+        restart.go_on(case, 0.008, 2)
+        counted, spent = case.record()["costs"]["cpu_seconds"], used() - before
+        print(f"{counted:.2f} s of CPU, {spent:.2f} s by the system's count")
+        self.assertLess(counted, spent)
+        # What is not counted is the end of a process, and mpirun. A rank or a part that is forgotten leaves a half.
+        self.assertGreater(counted, 0.7 * spent)
 
 
 class Drag(unittest.TestCase):

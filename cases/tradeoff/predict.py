@@ -1,0 +1,46 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a run of a scene will cost, by the law of cost of the runs that are kept.
+
+    BEDSCOPE=build/release/app/bedscope cases/tradeoff/predict.py cases/riser/scene.toml --kept data/runs/tradeoff
+
+--seconds is the simulated time, the scene's numerics.end where it is not given. The runs were made on one machine; --like gives
+the folder of a run (a short one of K_4.toml, say) made on the machine that is meant, which then counts as so much slower or
+faster than the law. On several ranks core-seconds grow by what they wait for each other.
+"""
+import argparse
+import pathlib
+import tempfile
+
+import runs
+from law import Law
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("scene", type=pathlib.Path)
+    parser.add_argument("--kept", type=pathlib.Path, required=True)
+    parser.add_argument("--seconds", type=float)
+    parser.add_argument("--like", type=pathlib.Path)
+    asked = parser.parse_args()
+    law = Law(runs.load(asked.kept)[1])
+    with tempfile.TemporaryDirectory() as folder:
+        scene = runs.scene_of(runs.made(asked.scene, pathlib.Path(folder) / "case"))
+    numerics = scene["numerics"]
+    cells = numerics["grid"][0] * numerics["grid"][1] * numerics["grid"][2]
+    dem_steps = round(numerics["gas_step"] / numerics["dem_step"])
+    seconds = asked.seconds or numerics["end"]
+    ms, half = law.predict(scene["particles"]["number"], dem_steps, cells)
+    speed = 1.0
+    if asked.like:
+        cost = runs.Cost(asked.like)
+        speed = cost.ms_per_step / law.predict(cost.particles, cost.dem_steps, cost.cells)[0]
+        print(f"{asked.like}: {cost.ms_per_step:.3g} ms a gas step, {speed:.2f} times those of the law")
+    steps = seconds / numerics["gas_step"]
+    print(f"{scene['particles']['number']} particles, {cells} cells, {dem_steps} DEM steps a gas step: "
+          f"{ms * speed:.3g} ± {half * speed:.2g} ms of CPU a gas step (95 %)")
+    print(f"{seconds:g} s, {steps:.0f} gas steps: {ms * speed * steps / 3.6e6:.3g} ± {half * speed * steps / 3.6e6:.2g} core-hours")
+
+
+if __name__ == "__main__":
+    main()
