@@ -21,7 +21,7 @@ constexpr std::size_t most_frames = 8;
 struct Item {
   SnapshotProduct product;
   ProductScratch scratch;
-  std::optional<VoidageCheck> check;  // against the gas of the same time
+  std::optional<JudgedCheck> check;  // against the gas of the same time
   GasScratch gas_scratch;
 };
 

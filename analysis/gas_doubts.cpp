@@ -16,8 +16,6 @@ constexpr double fair_ratio = 0.01;
 /// Fields that differ by more than this share of the holdup's own spread do not show the same bed;
 /// from the smaller one on it is worth a look whether a shift makes them fit.
 constexpr double fair_difference = 0.5, suspicious_difference = 0.2;
-/// A bed of the same holdup everywhere has no spread; mean differences up to this are no doubt [-].
-constexpr double fair_voidage = 1e-3;
 /// One run ends at one time on both sides, to this share of the longer one [-].
 constexpr double fair_end = 0.2;
 /// A shift is believed where it leaves less than this share of the squared difference.
@@ -81,20 +79,22 @@ void GasRun::tell_clock(RunResult& result) const {
 }
 
 void GasRun::tell_shift(const readers::Series& particles, RunResult& result) const {
-  const auto& checks = result.gas.checks;
-  double rms = 0, spread = 0;
-  for (const auto& check : checks) {
+  // A bed of the same holdup everywhere has no spread. No doubt comes of what the counting of its
+  // particles leaves open, nor of volumes that differ by what is fair.
+  double rms = 0, spread = 0, noise = 0, least = 0;
+  for (const auto& [snapshot, check] : checks_) {
     rms += check.rms_difference;
     spread += check.spread;
+    noise += check.noise;
+    least += std::hypot(check.noise, fair_ratio * check.holdup);
   }
-  const double least = fair_voidage * static_cast<double>(checks.size());
   if (rms <= std::max(suspicious_difference * spread, least)) return;
   // Snapshots around which all shifted times are there, so that all shifts see the same ones.
   const auto furthest = std::clamp<std::ptrdiff_t>(std::ssize(times_) / 3, 1, most_shift);
   std::vector<std::size_t> snapshots;
-  for (const auto& check : checks) {
-    const auto n = static_cast<std::ptrdiff_t>(gas_of_[check.snapshot]);
-    if (n >= furthest && n + furthest < std::ssize(times_)) snapshots.push_back(check.snapshot);
+  for (const auto& [snapshot, check] : checks_) {
+    const auto n = static_cast<std::ptrdiff_t>(gas_of_[snapshot]);
+    if (n >= furthest && n + furthest < std::ssize(times_)) snapshots.push_back(snapshot);
   }
   const auto middle = static_cast<std::size_t>(furthest);
   std::vector<double> squares(2 * middle + 1), shifts(2 * middle + 1);
@@ -107,7 +107,7 @@ void GasRun::tell_shift(const readers::Series& particles, RunResult& result) con
     analysis::make_product(*run_, particles, i, product, scratch);
     for (std::ptrdiff_t s = -furthest; s <= furthest; ++s) {
       const auto n = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(gas_of_[i]) + s);
-      VoidageCheck check;
+      JudgedCheck check;
       source_->make_check(product, places_[n], check, gas_scratch);
       squares[static_cast<std::size_t>(s + furthest)] +=
           check.rms_difference * check.rms_difference;
@@ -124,11 +124,12 @@ void GasRun::tell_shift(const readers::Series& particles, RunResult& result) con
         std::abs(shifts[best]), shifts[best] > 0 ? "later" : "earlier",
         std::sqrt(squares[best] / static_cast<double>(count)),
         std::sqrt(squares[middle] / static_cast<double>(count))));
-  else if (rms > fair_difference * spread)
+  else if (const auto n = static_cast<double>(checks_.size()); rms > fair_difference * spread)
     result.problems.push_back(
-        fmt::format("gas: voidage and particles differ by {:.0f} % of the holdup's own spread: do "
-                    "they show the same run, scale and axes?",
-                    100 * rms / spread));
+        fmt::format("gas: voidage and particles differ by {:.2g} (rms), where the holdup's own "
+                    "spread is {:.2g} and the noise of its counting {:.2g}: do they show the same "
+                    "run, scale and axes?",
+                    rms / n, spread / n, noise / n));
 }
 
 }  // namespace bedscope::analysis

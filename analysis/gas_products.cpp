@@ -125,13 +125,13 @@ void GasSource::make_product(std::size_t time, bool averaged, GasProduct& out,
   sum_profiles(out);
 }
 
-void GasSource::make_check(const SnapshotProduct& particles, std::size_t time, VoidageCheck& check,
+void GasSource::make_check(const SnapshotProduct& particles, std::size_t time, JudgedCheck& check,
                            GasScratch& scratch) const {
   const auto mapping = mapping_at(time);
   read_voidage(time, scratch.voidage);
   const auto cells = run_->grid.size();
   scratch.holdup.assign(cells, 0.);
-  double mass = 0, volume = 0;
+  double mass = 0, volume = 0, number = 0;
   for (std::size_t s = 0; s < particles.used; ++s) {
     const auto& slot = particles.slots[s];
     if (slot.key.rule >= 0) continue;
@@ -139,6 +139,7 @@ void GasSource::make_check(const SnapshotProduct& particles, std::size_t time, V
     if (!(slot.solids.volume > 0)) continue;
     mass += slot.solids.mass;
     volume += slot.solids.volume;
+    number += static_cast<double>(slot.solids.particles);
   }
   const double in_domain = particles.volume > 0 ? particles.volume_inside / particles.volume : 1;
   check.bed_mass = run_->density_from == RunSetup::Density::unknown ? undefined : mass * in_domain;
@@ -153,6 +154,7 @@ void GasSource::make_check(const SnapshotProduct& particles, std::size_t time, V
   // To the mesh and back, and the voidage to the grid: volume, phi V, (1 - eps) V of each cell.
   std::vector<std::array<double, 3>> sums(cells);
   check.solids_volume = check.gas_side_volume = 0;
+  double variance = 0;  // Poisson's, of phi v in V: phi v/V with v of one particle; integrated
   for (std::size_t c = 0; c < mapping->cells(); ++c) {
     const double solids = 1 - scratch.voidage.values[c];
     if (!std::isfinite(solids)) continue;
@@ -164,6 +166,8 @@ void GasSource::make_check(const SnapshotProduct& particles, std::size_t time, V
     if (inside <= 0) continue;
     check.solids_volume += of_particles;
     check.gas_side_volume += inside * solids;
+    if (number > 0)
+      variance += of_particles * (volume / number) / std::max(inside, run_->grid.cell_volume());
     mapping->share(c, [&](std::size_t k, double part) {
       sums[k][0] += part;
       sums[k][1] += part * (of_particles / inside);
@@ -186,7 +190,9 @@ void GasSource::make_check(const SnapshotProduct& particles, std::size_t time, V
   }
   check.mean_difference = difference / covered;
   check.rms_difference = std::sqrt(squares / covered);
-  check.spread = std::sqrt(std::max(0., phi_squares / covered - (phi / covered) * (phi / covered)));
+  check.holdup = phi / covered;
+  check.spread = std::sqrt(std::max(0., phi_squares / covered - check.holdup * check.holdup));
+  check.noise = std::sqrt(variance / covered);
 }
 
 }  // namespace bedscope::analysis

@@ -37,6 +37,14 @@ struct GasProduct {
   std::int64_t beyond = 0;       ///< voidages below 0 or above 1
 };
 
+/// A check and what it is judged by.
+struct JudgedCheck : VoidageCheck {
+  double holdup = 0;  ///< mean of phi over the cells compared [-]
+  /// What `spread` would be of as many particles thrown at random: a particle counts in one cell or
+  /// in the next, so that phi of a cell with n of them is known to phi/sqrt(n) [-].
+  double noise = 0;
+};
+
 struct GasScratch {
   readers::FieldValues voidage, velocity, temperature, pressure;
   std::vector<double> holdup, on_mesh;
@@ -59,7 +67,7 @@ class GasSource {
   /// Both sides are brought to the coarser of grid and mesh: phi is averaged over each cell of the
   /// mesh and brought back to the grid as the voidage is, so that a grid finer than the mesh does
   /// not blame the gas for what its cells cannot show, nor a coarser one the particles.
-  void make_check(const SnapshotProduct& particles, std::size_t time, VoidageCheck& check,
+  void make_check(const SnapshotProduct& particles, std::size_t time, JudgedCheck& check,
                   GasScratch& scratch) const;
 
  private:

@@ -71,7 +71,7 @@ void GasRun::match() {
   }
 }
 
-void GasRun::make_check(const SnapshotProduct& product, VoidageCheck& check,
+void GasRun::make_check(const SnapshotProduct& product, JudgedCheck& check,
                         GasScratch& scratch) const {
   check.snapshot = product.snapshot;
   check.time = run_->times[product.snapshot];

@@ -29,8 +29,8 @@ class GasRun {
   /// Also to be called when the particles have grown. Throws what set_up_gas does.
   void set_series(readers::GasSeries series);
 
-  void make_check(const SnapshotProduct& product, VoidageCheck& check, GasScratch& scratch) const;
-  void add_check(const VoidageCheck& check) { checks_[check.snapshot] = check; }
+  void make_check(const SnapshotProduct& product, JudgedCheck& check, GasScratch& scratch) const;
+  void add_check(const JudgedCheck& check) { checks_[check.snapshot] = check; }
   /// Matched snapshots whose check is not there yet, ascending.
   std::vector<std::size_t> unchecked() const;
 
@@ -64,7 +64,7 @@ class GasRun {
   std::vector<double> times_;        // of these [s]
   double tolerance_ = 0;             // [s]
   std::vector<std::size_t> gas_of_;  // of each snapshot, or none
-  std::map<std::size_t, VoidageCheck> checks_;
+  std::map<std::size_t, JudgedCheck> checks_;
   std::map<std::size_t, double> drops_;  // of pressure, at every time
 
   std::size_t first_ = 0, last_ = 0;  // of the window

@@ -20,14 +20,19 @@ struct Spelling {
 };
 
 // Sources: LIGGGHTS dump.html; `dump atom/vtk` (radii, velocity_lin); LPP (all vectors without
-// index); MFiX .vtp (Diameter, Velocity); foamToVTK of clouds (d, U; of CFDEMcoupling's: r).
+// index); MFiX .vtp (Diameter, Velocity); foamToVTK of clouds (d, U; of CFDEMcoupling's: r);
+// MercuryDPM's ParticleVtkWriter (Radius, Velocity, speciesType); Yade's VTKRecorder (radii,
+// linVelVec).
 constexpr std::array spellings{
     Spelling{"radius", "radius"},
     Spelling{"radius", "radii"},
+    Spelling{"radius", "Radius"},
     Spelling{"radius", "diameter", 0.5},
     Spelling{"radius", "Diameter", 0.5},
     Spelling{"radius", "d", 0.5},
     Spelling{"radius", "r"},
+    Spelling{"type", "type"},
+    Spelling{"type", "speciesType"},
     Spelling{"density", "density"},
     Spelling{"density", "rho"},
     Spelling{"vx", "vx"},
@@ -35,16 +40,19 @@ constexpr std::array spellings{
     Spelling{"vx", "velocity[1]"},
     Spelling{"vx", "Velocity[1]"},
     Spelling{"vx", "U[1]"},
+    Spelling{"vx", "linVelVec[1]"},
     Spelling{"vy", "vy"},
     Spelling{"vy", "velocity_lin[2]"},
     Spelling{"vy", "velocity[2]"},
     Spelling{"vy", "Velocity[2]"},
     Spelling{"vy", "U[2]"},
+    Spelling{"vy", "linVelVec[2]"},
     Spelling{"vz", "vz"},
     Spelling{"vz", "velocity_lin[3]"},
     Spelling{"vz", "velocity[3]"},
     Spelling{"vz", "Velocity[3]"},
     Spelling{"vz", "U[3]"},
+    Spelling{"vz", "linVelVec[3]"},
 };
 
 /// The last column of that name: LPP and VTK keep the last of doubled ones too.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "readers/forms.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include "readers/error.hpp"
@@ -46,14 +47,26 @@ constexpr std::array strangers{
              "compressed by xz: unpack it, or use gzip"},
     Stranger{"\xff\xfeI", "text in UTF-16: save it as UTF-8 or ASCII"},
     Stranger{"BZh", "compressed by bzip2: unpack it, or use gzip"},
+    Stranger{"\x04\x22\x4d\x18", "compressed by lz4: unpack it, or use gzip"},
+    Stranger{"PK\x03\x04", "a zip archive (or .npz): unpack it"},
+    Stranger{"\x93NUMPY", "an array of numpy, a form not known; use dump custom"},
+    Stranger{"Number of particles = ", "a dump cfg, a form not known; use dump custom"},
+    Stranger{"#format x_y_z_r", "text of Yade's export, a form not known; use its VTKRecorder"},
 };
 
-/// `dump xyz`: the number of atoms, "Atoms. Timestep: 100", rows of a type and a position.
+/// `dump xyz` and `dump extxyz`: the number of atoms, "Atoms. Timestep: 100" or "Timestep: 100 ...
+/// Properties=species:S:1:pos:R:3", rows of a type and a position.
 bool is_xyz(std::string_view head) {
   const auto line = head.find('\n');
-  return line > 0 && head.substr(0, line).find_first_not_of("0123456789 \t\r") == head.npos &&
-         head.substr(line + 1).starts_with("Atoms");
+  if (line == 0 || head.substr(0, line).find_first_not_of("0123456789 \t\r") != head.npos)
+    return false;
+  const auto comment = head.substr(std::min(line, head.size() - 1) + 1);
+  return comment.starts_with("Atoms") ||
+         comment.substr(0, comment.find('\n')).find("Properties=") != comment.npos;
 }
+
+/// The mark of a tar archive behind the name and the numbers of its first member.
+bool is_tar(std::string_view head) { return head.size() > 262 && head.substr(257, 5) == "ustar"; }
 
 }  // namespace
 
@@ -67,6 +80,7 @@ const Form& identify(const std::string& path, std::string_view head) {
     if (head.starts_with(stranger.begins)) throw FormatError("{}: {}", path, stranger.what);
   if (head.find("FoamFile") != head.npos)
     throw FormatError("{}: a file of an OpenFOAM case: name the case", path);
+  if (is_tar(head)) throw FormatError("{}: a tar archive: unpack it", path);
   if (is_xyz(head)) throw FormatError("{}: an xyz dump: it holds no radius; use dump custom", path);
   if (const auto type = xml_root_type(head); !type.empty())
     throw FormatError("{}: VTK XML of type {}, not particles", path, type);

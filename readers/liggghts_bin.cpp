@@ -13,6 +13,7 @@
 #include <map>
 
 #include "readers/columns.hpp"
+#include "readers/dump_units.hpp"
 #include "readers/error.hpp"
 #include "readers/forms.hpp"
 #include "readers/liggghts_bin_header.hpp"
@@ -116,6 +117,9 @@ FileScan scan(const std::string& path, bool /*thorough*/) {
       const auto header = next_header(source, path);
       if (!header) break;
       skip_chunks(source, path, *header);
+      if (found.snapshots.empty())
+        if (auto said = units_problem(header->units); !said.empty())
+          found.problems.push_back(std::move(said));
       auto located = locate(*header, unnamed);
       located.bytes = source.position() - begin;
       if (!located.named && found.unnamed.empty()) found.unnamed = "a binary dump names no columns";

@@ -26,6 +26,7 @@ struct Header {
   std::uint64_t count_at = 0;
   std::int64_t step = 0, particles = 0;
   double time = unknown;
+  std::string units;  // as stored, or empty
   Box box;
   std::int32_t columns = 0, chunks = 0;
   std::vector<std::string> names;  // empty: not stored
@@ -84,6 +85,8 @@ inline std::int32_t read_magic(NumberReader& numbers, std::int64_t length) {
 inline void read_box(NumberReader& numbers, Header& header) {
   auto& box = header.box;
   const auto triclinic = numbers.next<std::int32_t>();
+  if (triclinic == 2)
+    numbers.fail(numbers.position() - 4, "a general triclinic box is not supported");
   if (triclinic != 0 && triclinic != 1)
     numbers.fail(numbers.position() - 4, "expected triclinic 0 or 1, found {}", triclinic);
   for (int k = 0; k < 6; ++k) {
@@ -109,7 +112,7 @@ inline void read_box(NumberReader& numbers, Header& header) {
 }
 
 inline void read_names(NumberReader& numbers, Header& header) {
-  numbers.text(numbers.next<std::int32_t>(), "a name of units");
+  header.units = numbers.text(numbers.next<std::int32_t>(), "a name of units");
   if (numbers.next<char>() != 0) header.time = numbers.next<double>();
   const auto at = numbers.position();
   const auto text = numbers.text(numbers.next<std::int32_t>(), "names of columns");

@@ -2,6 +2,7 @@
 // What stands before the rows of a snapshot in a LIGGGHTS text dump.
 #pragma once
 
+#include <cmath>
 #include <cstring>
 #include <optional>
 #include <string>
@@ -42,6 +43,7 @@ class NotParticles : public FormatError {
 struct Header {
   std::int64_t step = no_step;
   double time = unknown;
+  std::string units;  // what "ITEM: UNITS" says, of the first snapshot of a file
   std::int64_t particles = -1;
   Box box;
   std::vector<std::string> columns;  // "column 1" ... where the header names none
@@ -86,9 +88,13 @@ class HeaderReader {
         header_.step = integer("the step");
       } else if (text.starts_with("TIME")) {
         header_.time = number("the time");
-      } else if (text.starts_with("UNITS") || text.starts_with("LABEL")) {
+        if (!std::isfinite(header_.time)) fail("the time is not finite");
+      } else if (text.starts_with("UNITS")) {
+        header_.units = require_line("a text");
+      } else if (text.starts_with("LABEL")) {
         require_line("a text");
       } else if (text.starts_with("NUMBER OF ATOMS")) {
+        if (header_.particles >= 0) fail("\"ITEM: NUMBER OF ATOMS\" twice");
         header_.particles = integer("the number of atoms");
         if (header_.particles < 0) fail("count is negative: {}", header_.particles);
       } else if (text.starts_with("NUMBER OF ") && is_local(text.substr(10))) {
@@ -96,6 +102,9 @@ class HeaderReader {
                            line_number(), text.substr(10));
       } else if (text.starts_with("BOX BOUNDS")) {
         read_box(text.substr(10));
+      } else if (text.starts_with("GRID SIZE") || text.starts_with("DIMENSION")) {
+        throw NotParticles("{}: line {}: a dump grid: values of cells, not particles", path_,
+                           line_number());
       } else if (text.starts_with("ATOMS")) {
         finish(text.substr(5));
         return header_;
@@ -185,6 +194,7 @@ class HeaderReader {
 
   void read_box(std::string_view flags) {
     auto& box = header_.box;
+    if (box.known) fail("\"ITEM: BOX BOUNDS\" twice");
     box.known = true;
     std::vector<std::string_view> words;
     for (auto word = next_word(flags); !word.empty(); word = next_word(flags))
@@ -203,6 +213,9 @@ class HeaderReader {
         if (word.empty() || !parse_number(word.data(), word.data() + word.size(), values[k]))
           fail("expected {} box numbers, found {}", count, quote(line));
       }
+      // A third number would be a tilt, whose names are not there.
+      if (!next_word(rest).empty())
+        fail("expected {} box numbers, found more: {}", count, quote(line));
       box.min[axis] = values[0];
       box.max[axis] = values[1];
       if (triclinic) box.tilt[axis] = values[2];
@@ -210,7 +223,7 @@ class HeaderReader {
         box.periodic[axis] = words[axis].starts_with('p');
         box.shrink_wrapped |= words[axis].find_first_of("sm") != std::string_view::npos;
       }
-      if (!(box.max[axis] > box.min[axis]))
+      if (!(box.max[axis] > box.min[axis]) || !std::isfinite(box.max[axis] - box.min[axis]))
         fail("box has no width in {}: {} {}", "xyz"[axis], values[0], values[1]);
     }
   }

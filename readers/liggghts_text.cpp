@@ -12,6 +12,7 @@
 
 #include "readers/byte_window.hpp"
 #include "readers/columns.hpp"
+#include "readers/dump_units.hpp"
 #include "readers/error.hpp"
 #include "readers/forms.hpp"
 #include "readers/liggghts_header.hpp"
@@ -169,6 +170,12 @@ void note_unnamed(const std::string& path, const Header& header, FileScan& found
                               first_line(header, path) + header.lines - 1);
 }
 
+/// Units stand over the first snapshot of a file alone.
+void note_units(const Header& header, FileScan& found) {
+  if (auto said = units_problem(header.units); !said.empty())
+    found.problems.push_back(std::move(said));
+}
+
 /// The header alone, where the file looks like one snapshot (see looks_single).
 bool glance(const std::string& path, FileScan& found) {
   constexpr std::size_t first_look = 1U << 14;
@@ -178,6 +185,7 @@ bool glance(const std::string& path, FileScan& found) {
   const auto header = HeaderReader(window, path).next();
   if (!header || !looks_single(path, *header, window, source.likely_size())) return false;
   note_unnamed(path, *header, found);
+  note_units(*header, found);
   found.snapshots.push_back(
       locate(*header, std::make_shared<const std::vector<std::string>>(header->columns)));
   return true;
@@ -195,6 +203,8 @@ FileScan find_snapshots(const std::string& path, FileScan known = {}) {
   FileScan found;
   found.snapshots = std::move(known.snapshots);
   found.unnamed = std::move(known.unnamed);
+  for (auto& problem : known.problems)  // said by the first snapshot, which is not read again
+    if (problem.starts_with(units_said)) found.problems.push_back(std::move(problem));
   Source source(path);
   if (source.size_bound() == 0) throw FormatError("{}: file is empty", path);
   std::shared_ptr<const std::vector<std::string>> columns;
@@ -232,6 +242,7 @@ FileScan find_snapshots(const std::string& path, FileScan known = {}) {
       }
     }
     note_unnamed(path, *header, found);
+    if (found.snapshots.empty()) note_units(*header, found);
     auto located = locate(*header, columns);
     located.bytes = window.offset() - header->offset;
     for (const auto& [offset, entry] : entries)

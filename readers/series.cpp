@@ -158,8 +158,12 @@ void Series::join(const DumpUnit& unit, std::vector<FileScan> scans) {
     const auto& path = unit.files[k];
     note_cut(path, scan);
     name_columns(path, scan);
-    for (const auto& problem : scan.problems)
-      problems_.push_back(fmt::format("{}: {}", path, problem));
+    for (const auto& problem : scan.problems) {
+      const auto same = [&](const std::string& said) { return said.ends_with(": " + problem); };
+      // What stands in every file of a run (its units) is said of the first.
+      if (std::none_of(problems_.begin(), problems_.end(), same))
+        problems_.push_back(fmt::format("{}: {}", path, problem));
+    }
     files_.push_back(path);
     std::map<std::int64_t, std::size_t> seen;
     for (auto& located : scan.snapshots) {

@@ -112,7 +112,8 @@ class LegacyWalk : private LegacyData {
     auto line = need_line("\"# vtk DataFile Version\"");
     if (!line.starts_with(magic)) fail("expected \"{}\", found \"{}\"", magic, line.substr(0, 40));
     std::string_view rest = line.substr(magic.size());
-    const auto word = next_word(rest);
+    auto word = next_word(rest);
+    if (word.ends_with('.')) word.remove_suffix(1);  // "Version 3.0." of Yade's export
     double version = 0;
     if (!parse_number(word.data(), word.data() + word.size(), version) || version < 1 ||
         version > 5.1)

@@ -69,14 +69,18 @@ class FoamCase:
                         if [i, j, k][axis] == 0:
                             outer.append((cell(i, j, k), face(axis, i, j, k)[::-1]))
         faces = [f[2] for f in inner] + [f[1] for f in outer]
-        x, y, z = self.planes
-        self.write_list("points", "vectorField",
-                        [f"({a:.12g} {b:.12g} {c:.12g})" for c in z for b in y for a in x])
+        self.write_points()
         self.write_list("faces", "faceList", ["4(%d %d %d %d)" % tuple(f) for f in faces])
         self.write_list("owner", "labelList", [str(f[0]) for f in inner + outer])
         self.write_list("neighbour", "labelList", [str(f[1]) for f in inner])
         self.write("constant/polyMesh/boundary", "polyBoundaryMesh",
                    "1\n(\nwalls { type wall; nFaces %d; startFace %d; }\n)\n" % (len(outer), len(inner)))
+
+    def write_points(self, lean=0):
+        """Cells that lean along x by `lean` times their height are no boxes."""
+        x, y, z = self.planes
+        self.write_list("points", "vectorField",
+                        [f"({a + lean * c:.12g} {b:.12g} {c:.12g})" for c in z for b in y for a in x])
 
     def field(self, time, name, values, dimensions):
         values = np.asarray(values)

@@ -142,6 +142,38 @@ class GasAgainstParticles(GasCommand):
         self.assertNotIn("fit", self.problems())
         self.assertNotIn("particles' volume", self.problems())
 
+    def lattice(self, case, lean=0):
+        """One snapshot of equal particles at the centres of cells that lean along x; returns the volume of one."""
+        dumps = Dumps(self.at("post"), 3)
+        x, y, z = case.centres.T
+        dumps.write(0, dumps.particles(len(x)) | {"x": x + lean * z, "y": y, "z": z})
+        return 4 / 3 * math.pi * 0.0006**3
+
+    def test_a_bed_without_spread_is_doubted_beyond_the_noise_of_counting(self):
+        """n = 2 particles in each cell of the grid: their holdup is known to 1/sqrt(2) of itself."""
+        case = self.case()
+        holdup = self.lattice(case) / (0.005 * 0.003 * 0.01)
+        sign = (-1) ** (case.centres[:, [0, 2]] // [0.005, 0.01]).sum(axis=1)  # in x and z, so in the grid too
+        for share, doubted in ((0.8, False), (1.25, True)):  # of the noise, either side of it
+            case.field("0", "voidfraction", 1 - holdup * (1 + share / math.sqrt(2) * sign), "0 0 0 0 0 0 0")
+            self.analyse(self.study(cell=[0.005, 0.01]))
+            self.assertAlmostEqual(float(self.rows("voidage_check")[0]["rms_difference [-]"]),
+                                   share * holdup / math.sqrt(2), places=7)
+            self.assertEqual("voidage and particles differ" in self.problems(), doubted, self.problems())
+
+    def test_particles_count_whole_in_cells_that_a_slanting_wall_cuts(self):
+        """All particles are within walls that lean by the width of 3 cells of the grid; so all of their volume counts."""
+        case = self.case(high=(0.055, 0.006, 0.3), n=(11, 2, 30))
+        lean = 0.015 / 0.3
+        case.write_points(lean)
+        volume = len(case.centres) * self.lattice(case, lean)
+        case.field("0", "voidfraction", 1 - volume / (0.055 * 0.006 * 0.3), "0 0 0 0 0 0 0")
+        self.analyse(self.study(cell=[0.005, 0.01]))
+        row = self.rows("voidage_check")[0]
+        self.assertLess(int(row["cells"]), 14 * 30)
+        for side in ("particles", "gas"):  # to the nine digits of the voidage
+            self.assertAlmostEqual(float(row[f"solids_volume_{side} [m3]"]) / volume, 1, delta=3e-7)
+
     def test_a_shifted_clock_is_found(self):
         self.moving_clump(lambda t: f"{t + 0.02:g}")
         self.analyse(self.study())

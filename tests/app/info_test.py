@@ -9,6 +9,7 @@ import json
 import os
 import re
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
@@ -197,6 +198,118 @@ class StudyFile(Info):
                 self.run_it("analyse", "study.toml", "-o", "out", "--tables-only", "--quiet")
                 files += 1
         self.assertGreater(files, 40)
+
+
+class OtherProgram(Info):
+    """Two spheres as other programs write them, by hand from their sources."""
+
+    POINTS, SPEEDS, RADII = "0.01 0.02 0.03\n0.04 0.05 0.06\n", "1 2 3\n4 5 7\n", "1e-3\n2e-3\n"
+    ROWS = "1 1 0.01 0.02 0.03 1 2 3 1e-3\n2 1 0.04 0.05 0.06 4 5 7 2e-3\n"
+
+    def lammps(self, step, before=""):
+        return (f"{before}ITEM: TIMESTEP\n{step}\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS pp pp pp\n"
+                "0.0 1e-1\n0.0 1e-1\n0.0 1e-1\nITEM: ATOMS id type x y z vx vy vz radius\n" + self.ROWS)
+
+    def spheres(self, name):
+        found = self.json(name)
+        self.assertEqual([round(found["radius"][end], 9) for end in ("min", "max")], [1e-3, 2e-3])  # Float32
+        self.assertEqual([round(x, 8) for x in found["bounds"]["max"]], [0.04, 0.05, 0.06])
+        self.assertIn("speed       up to 9.487 m/s", self.run_it("info", name).stdout)  # sqrt(16 + 25 + 49)
+        return found
+
+    def refused(self, name, content, *words):
+        with open(self.at(name), "wb") as file:
+            file.write(content)
+        said = self.run_it("info", name, code=2).stderr
+        self.assertEqual(said.count("\n"), 1, said)
+        for word in words:
+            self.assertIn(word, said)
+
+
+class OtherPrograms(OtherProgram):
+    def test_units_of_lammps_that_are_not_si_are_told_once(self):
+        for units, told in (("si", 0), ("cgs", 1), ("lj", 1)):
+            name = units + "/dump.%d.txt"
+            for step in (100, 200, 300):
+                self.write(name % step, self.lammps(step, f"ITEM: UNITS\n{units}\nITEM: TIME\n{step}e-5\n"))
+            found = self.spheres(units)
+            self.assertEqual(found["times"], [1e-3, 2e-3, 3e-3])
+            problems = [text for text in found["problems"] if "taken as SI" in text]
+            self.assertEqual(len(problems), told, found["problems"])
+            self.assertIn(f"units {units}: " if told else "", "".join(problems))
+
+    def test_units_of_a_binary_dump_are_told(self):
+        rows = [float(x) for x in self.ROWS.split()]
+        names = b"id type x y z vx vy vz radius"
+        for units, told in ((b"si", False), (b"cgs", True)):
+            content = (struct.pack("<q10s2i2q7i6d", -10, b"DUMPCUSTOM", 1, 2, 100, 2, *[0] * 7, *[0, 0.1] * 3)
+                       + struct.pack("<2i", 9, len(units)) + units + b"\0" + struct.pack("<i", len(names)) + names
+                       + struct.pack("<2i18d", 1, 18, *rows))
+            with open(self.at("dump.bin"), "wb") as file:
+                file.write(content)
+            self.assertEqual(any("units cgs" in text for text in self.spheres("dump.bin")["problems"]), told)
+
+    def test_yade(self):
+        head = "# vtk DataFile Version 3.0.\ncomment\nASCII\n\nDATASET POLYDATA\nPOINTS 2 double\n" + self.POINTS
+        self.write("spheres-1.vtk", head + "\nPOINT_DATA 2\nSCALARS radius double 1\nLOOKUP_TABLE default\n" + self.RADII
+                   + "\nVECTORS velocity double\n" + self.SPEEDS)
+        self.spheres("spheres-1.vtk")
+        self.write("y-spheres.1.vtu", self.vtu(
+            self.array("Float32", "radii", self.RADII) + self.array("Float32", "linVelVec", self.SPEEDS, 3),
+            self.array("Int32", "connectivity", "0 1") + self.array("Int32", "offsets", "1 2")
+            + self.array("UInt8", "types", "1 1"), 2))
+        self.spheres("y-spheres.1.vtu")
+
+    def test_mercury_dpm(self):
+        cells = (self.array("Int32", "connectivity", "0") + self.array("Float32", "offset", "0")
+                 + self.array("UInt8", "types", "1"))
+        self.write("DrumParticle_7.vtu", self.vtu(
+            self.array("Float32", "Velocity", self.SPEEDS, 3) + self.array("Float32", "Radius", self.RADII)
+            + self.array("Float32", "speciesType", "0 1"), cells, 0, "\n<!-- time 0.1-->\n"))
+        self.assertEqual(self.spheres("DrumParticle_7.vtu")["types"], [0, 1])
+
+    def array(self, kind, name, values, components=1):
+        return (f'<DataArray type="{kind}" Name="{name}" NumberOfComponents="{components}" format="ascii">'
+                f"\n{values}\n</DataArray>\n")
+
+    def vtu(self, data, cells, count, before=""):
+        return (f'<?xml version="1.0"?>\n{before}<VTKFile type="UnstructuredGrid" version="0.1" '
+                'byte_order="LittleEndian">\n<UnstructuredGrid>\n'
+                f'<Piece NumberOfPoints="2" NumberOfCells="{count}">\n<Points>\n'
+                + self.array("Float32", "Position", self.POINTS, 3) + f"</Points>\n<PointData>\n{data}</PointData>\n"
+                f"<Cells>\n{cells}</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n")
+
+    def test_forms_that_are_not_read_are_named(self):
+        text = self.lammps(100)
+        self.refused("a", text.replace("BOX BOUNDS pp", "BOX BOUNDS abc origin pp").encode(), "general triclinic")
+        self.refused("b", struct.pack("<q10s2i2q7i12d", -10, b"DUMPCUSTOM", 1, 2, 100, 2, 2, *[0] * 6, *[0] * 12),
+                     "general triclinic")
+        grid = "ITEM: TIMESTEP\n100\nITEM: BOX BOUNDS pp pp pp\n0 1\n0 1\n0 1\nITEM: DIMENSION\n3\n"
+        self.refused("c", (grid + "ITEM: GRID SIZE nx ny nz\n1 1 1\nITEM: GRID CELLS c_1:g:n\n1\n").encode(), "dump grid")
+        self.refused("d", b"---\ncreator: LAMMPS\ntimestep: 100\n", "YAML")
+        self.refused("e", b"\x28\xb5\x2f\xfd" + bytes(60), "zstd")
+        self.refused("f", b"\x04\x22\x4d\x18" + bytes(60), "lz4")
+        self.refused("g", b"PK\x03\x04" + bytes(60), "zip")
+        self.refused("h", b"dump".ljust(257, b"\0") + b"ustar  \0" + bytes(600), "tar archive")
+        self.refused("i", b"\x93NUMPY\x01\0" + bytes(60), "numpy")
+        self.refused("j", b'2\nTimestep: 100 Lattice="1 0 0 0 1 0 0 0 1" Properties=species:S:1:pos:R:3\n'
+                     b"1 0 0 0\n1 0 0 0\n", "xyz dump")
+        self.refused("k", b"Number of particles = 2\nA = 1 Angstrom (basic length-scale)\n", "dump cfg")
+        self.refused("l", b"#format x_y_z_r\n0.1\t0.2\t0.3\t0.01\n", "Yade")
+
+
+class DamagedHeaders(OtherProgram):
+    def test_of_text_dumps(self):
+        good = self.lammps(100)
+        box = "0.0 1e-1\n"
+        for found, put, words in (
+                (box, "0.0 1e-1 0.02\n", ("line 6", "expected 2 box numbers, found more")),  # a tilt without its name
+                (box, "0.0 inf\n", ("line 6", "no width in x")),
+                ("ITEM: ATOMS", "ITEM: BOX BOUNDS pp pp pp\n0 1\n0 1\n0 1\nITEM: ATOMS", ("line 9", "BOX BOUNDS\" twice")),
+                ("ITEM: BOX", "ITEM: NUMBER OF ATOMS\n1\nITEM: BOX", ("line 5", "NUMBER OF ATOMS\" twice")),
+                ("ITEM: TIMESTEP", "ITEM: TIME\ninf\nITEM: TIMESTEP", ("line 2", "time is not finite"))):
+            self.assertIn(found, good)
+            self.refused("damaged", good.replace(found, put, 1).encode(), *words)
 
 
 class Corpus(Info):
