@@ -173,7 +173,9 @@ def draw_law(runs, law, left_out, name):
     ends = ends_of([v for kind in rows.values() for r in kind for v in r[:2]], 1.3)
     axes = Axes(ends, ends, (side, side))
     diagonal = [(x - 4, x - 4, x + 4, x + 4) for x in range(0, side, 6)]
-    texts = places(axes, [r[:3] for kind in rows.values() for r in kind], diagonal)
+    bars = [axes.at(max(v - half, ends[0]), y) + axes.at(v + half, y) for v, y, _, half in rows["out"]]
+    bars = [(left, y - 3, right, y + 3) for left, y, right, _ in bars]
+    texts = places(axes, [r[:3] for kind in rows.values() for r in kind], diagonal + bars)
     script = list(START) + [block("fit", [r[:2] for r in rows["fit"]])]
     words = [f"x w l lc rgb '{GREY}' t 'equal'", f"$fit w p pt 7 ps .9 lc rgb '{BLACK[0]}' t 'in the fit'"]
     if rows["out"]:
