@@ -170,9 +170,6 @@ class Command(unittest.TestCase):
     def test_what_is_doubtful_is_said_on_stderr(self):
         run = self.run_it('image = "fig.png"\n' + X + Y + SERIES, "--quiet")
         self.assertEqual((run.returncode, run.stderr), (0, ""))
-        # Two series of one colour, and nothing that tells them apart.
-        run = self.run_it('image = "fig.png"\n' + X + Y + SERIES + SERIES.replace('"a"', '"b"'), "--quiet")
-        self.assertIn('doubtful: series "a", "b": all of colour', run.stderr)
         with Image.open(self.at("fig.png")) as picture:
             framed = picture.convert("RGB")
         for x in range(400):
