@@ -48,15 +48,19 @@ Product digitise_one(const std::string& image, const digitise::Figure& figure,
   return product;
 }
 
+/// What may be wrong goes to stderr, even where nothing else is said.
 void say(const Product& product, const Common& common) {
   const auto& found = product.found;
+  for (const auto& doubt : found.doubts)
+    fmt::print(stderr, "bedscope: {}: doubtful: {}\n", product.image, doubt);
   if (common.json) {
     nlohmann::ordered_json json{{"image", product.image},
                                 {"csv", product.csv.string()},
                                 {"overlay", product.overlay.string()},
                                 {"rotation", found.angle},
                                 {"series", nlohmann::ordered_json::array()},
-                                {"problems", found.problems}};
+                                {"notes", found.notes},
+                                {"doubts", found.doubts}};
     for (const auto& series : found.series)
       json["series"].push_back(
           {{"name", series.name}, {"points", series.points.size()}, {"shape", series.shape}});
@@ -68,7 +72,7 @@ void say(const Product& product, const Common& common) {
     fmt::print("{}: {} points{}\n", series.name, series.points.size(),
                series.shape.empty() ? "" : fmt::format(" ({})", series.shape));
   if (found.angle != 0) fmt::print("turned upright by {:.2f} degrees\n", -found.angle);
-  for (const auto& problem : found.problems) fmt::print("problem: {}\n", problem);
+  for (const auto& note : found.notes) fmt::print("{}\n", note);
   fmt::print("written: {}, {}\n", product.csv.string(), product.overlay.string());
 }
 

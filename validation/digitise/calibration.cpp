@@ -43,22 +43,33 @@ double Calibration::pixel(double value) const {
 }
 
 double Calibration::uncertainty(double pixel, double u) const {
-  const double linear = std::hypot(a_u, b_u * (pixel - origin), b * u);
+  double squares = u * u, shared = 0, tt = 0;
+  for (const auto& place : places) tt += (place.at - origin) * (place.at - origin);
+  for (const auto& place : places) {  // by how much the line at `pixel` follows this one
+    const double lever =
+        1 / static_cast<double>(places.size()) + (pixel - origin) * (place.at - origin) / tt;
+    squares += std::pow(lever * place.u, 2);
+    shared += lever * place.shared;
+  }
+  const double linear = std::abs(b) * std::sqrt(squares + shared * shared);
   return log ? value(pixel) * std::numbers::ln10 * linear : linear;
 }
 
 std::vector<Place> places_of(const AxisSpec& axis, const std::vector<double>& along,
-                             const std::vector<double>& lines, double pixel) {
+                             const std::vector<double>& lines, double pixel, bool turned) {
   const bool whole = std::all_of(axis.points.begin(), axis.points.end(), [](const auto& point) {
     return point.pixel.x == std::round(point.pixel.x) && point.pixel.y == std::round(point.pixel.y);
   });
   std::vector<Place> places;
   for (const double at : along) {
     const auto line = whole ? meant(at, lines, pixel) : std::nullopt;
-    if (line)
-      places.push_back({*line, pixel * 0.5 / std::sqrt(3.0)});
-    else
+    if (!line) {
       places.push_back({at, pixel * (whole ? 1 / std::sqrt(3.0) : 0.1)});
+      continue;
+    }
+    const double off_edge = std::abs(*line / pixel - std::round(*line / pixel));
+    const double half = turned || off_edge > 0.25 ? 0.25 * pixel : 0;
+    places.push_back({*line - half, pixel * 0.5 / std::sqrt(3.0), half});
   }
   return places;
 }
@@ -101,14 +112,9 @@ Calibration calibrate(const AxisSpec& axis, const std::vector<Place>& places,
   if (scatter > allowed)
     throw InputError("{}: expected points on one {} scale, found one {:.1f} px off", where,
                      axis.log ? "logarithmic" : "linear", scatter);
-  double uu = 0, ttuu = 0;
-  for (const auto& place : places) {
-    const double u = std::max(place.u, n > 2 ? scatter / std::sqrt(3.0) : 0.0);
-    uu += u * u;
-    ttuu += std::pow((place.at - result.origin) * u, 2);
-  }
-  result.a_u = std::abs(result.b) * std::sqrt(uu) / static_cast<double>(n);
-  result.b_u = std::abs(result.b) * std::sqrt(ttuu) / tt;
+  result.places = places;
+  if (n > 2)
+    for (auto& place : result.places) place.u = std::max(place.u, scatter / std::sqrt(3.0));
   return result;
 }
 

@@ -15,8 +15,7 @@
 namespace bedscope::digitise {
 namespace {
 
-constexpr float faint = 0.12F;     // of full contrast: below it is paper
-constexpr float same_ink = 60.0F;  // distance in BGR within which a colour is the one asked for
+constexpr float faint = 0.12F;  // of full contrast: below it is paper
 
 /// Luma of a BGR difference (ITU-R BT.601): what JPEG keeps sharp.
 float luma(cv::Vec3f d) { return 0.114F * d[0] + 0.587F * d[1] + 0.299F * d[2]; }

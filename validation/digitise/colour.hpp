@@ -9,6 +9,8 @@
 
 namespace bedscope::digitise {
 
+inline constexpr float same_ink = 60;  ///< distance in BGR within which a colour is the asked one
+
 struct Colours {
   cv::Vec3f paper;
   std::vector<cv::Vec3f> inks;    ///< the asked ones first, as they are in the picture; then others

@@ -10,6 +10,7 @@
 #include "validation/digitise/calibration.hpp"
 #include "validation/digitise/clear.hpp"
 #include "validation/digitise/colour.hpp"
+#include "validation/digitise/doubt.hpp"
 #include "validation/digitise/error_bars.hpp"
 #include "validation/digitise/legend.hpp"
 #include "validation/digitise/lines.hpp"
@@ -78,7 +79,7 @@ Calibration calibration_of(const AxisSpec& axis, const Page& page, const std::ve
   }
   std::vector<double> lines;
   for (const auto& rule : across) lines.push_back(rule.at);
-  return calibrate(axis, places_of(axis, along, lines, 1.0 / page.reduction()),
+  return calibrate(axis, places_of(axis, along, lines, 1.0 / page.reduction(), page.angle() != 0),
                    fmt::format("{}: axes.{}", where, is_x ? "x" : "y"));
 }
 
@@ -121,10 +122,17 @@ class Digitiser {
  private:
   void find_area(const cv::Rect2d& inside, const Rules& rules) {
     const auto size = page_.image().size();
-    found_.plot_area =
-        figure_.plot_area ? page_.to_page(*figure_.plot_area) : plot_area(rules, inside, size);
-    if (const auto shaded = shaded_area(page_.image(), inside); shaded && !figure_.plot_area)
-      found_.plot_area &= *shaded;
+    if (figure_.plot_area) {
+      found_.plot_area = page_.to_page(*figure_.plot_area);
+    } else {
+      const auto framed = plot_area(rules, inside, size);
+      const auto shaded = shaded_area(page_.image(), inside);
+      found_.plot_area = shaded ? framed.box & *shaded : framed.box;
+      if (framed.guess && !shaded)
+        found_.doubts.push_back(
+            "no frame was found: labels of the ticks may be taken for data where they have a "
+            "series' colour; plot_area tells where the plot ends");
+    }
     area_ = whole_pixels(found_.plot_area, size);
     if (area_.width < 16 || area_.height < 16)
       throw InputError(
@@ -161,7 +169,7 @@ class Digitiser {
     const auto rows = find_legend_rows(text, ink, area_);
     boxes.insert(boxes.end(), rows.begin(), rows.end());
     for (const auto& box : boxes)
-      found_.problems.push_back(
+      found_.notes.push_back(
           fmt::format("taken for a legend or an inset and left out: [{}, {}, {}, {}]", box.x, box.y,
                       box.width, box.height));
     found_.left_out.insert(found_.left_out.end(), boxes.begin(), boxes.end());
@@ -214,8 +222,7 @@ class Digitiser {
     for (std::size_t t = 0; t < templates.size(); ++t)
       store_markers(map, templates[t], markers[t], figure_.series[with_markers[t]],
                     found_.series[with_markers[t]], with_line);
-    if (!with_line) return;
-    if (templates.empty())
+    if (with_line && templates.empty())
       if (const auto unasked = markers_on_line(map)) {
         templates.push_back(*unasked);
         markers = find_markers(map, templates);
@@ -224,10 +231,52 @@ class Digitiser {
     cover_markers(map, templates, markers);
     for (std::size_t t = 0; t < templates.size(); ++t)
       for (const auto& one : markers[t])
-        cover(map, find_error_bar(whole, templates[t], one.at, true), one.at);
+        cover(map, find_error_bar(whole, templates[t], one.at, with_line), one.at);
+    if (!with_markers.empty())
+      doubt_markers(ink, with_markers, missed_markers(map, templates), markers);
     for (const auto i : members)
       if (figure_.series[i].kind == Kind::line)
         store_line(map, all_points(markers), figure_.series[i], found_.series[i]);
+    if (const int beside = ink_beside(colours_, ink); beside >= 0)
+      found_.doubts.push_back(fmt::format(
+          "series {}: the noise of the picture mixes its colour {} with another that is there, {}",
+          names_of(members), hex_of(colours_.inks[ink]), hex_of(colours_.inks[beside])));
+  }
+
+  void doubt_markers(int ink, const std::vector<std::size_t>& series,
+                     const std::vector<cv::Point2d>& missed,
+                     const std::vector<std::vector<Marker>>& markers) {
+    if (series.size() > 1 && std::any_of(series.begin(), series.end(), [&](std::size_t i) {
+          return !figure_.series[i].shape && !figure_.series[i].sample;
+        }))
+      found_.doubts.push_back(fmt::format(
+          "series {}: all of colour {}: expected a shape or a template for each, found one without",
+          names_of(series), hex_of(colours_.inks[ink])));
+    if (!missed.empty())
+      found_.doubts.push_back(fmt::format("series {}: {} more places look like markers: {}",
+                                          names_of(series), missed.size(), listed(missed)));
+    for (std::size_t t = 0; t < series.size(); ++t)
+      if (const auto unlike = unlike_others(markers[t]); !unlike.empty())
+        found_.doubts.push_back(
+            fmt::format("series {}: {} of {} markers resemble the others little: {}",
+                        names_of({series[t]}), unlike.size(), markers[t].size(), listed(unlike)));
+  }
+
+  std::string names_of(const std::vector<std::size_t>& series) const {
+    std::string names;
+    for (const auto i : series)
+      names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", figure_.series[i].name);
+    return names;
+  }
+
+  /// The first of `places`, in pixels of the picture.
+  std::string listed(const std::vector<cv::Point2d>& places) const {
+    std::string text;
+    for (std::size_t i = 0; i < std::min<std::size_t>(3, places.size()); ++i) {
+      const auto at = page_.to_picture(places[i] + cv::Point2d(area_.tl()));
+      text += fmt::format("{}[{:.0f}, {:.0f}]", i == 0 ? "" : ", ", at.x, at.y);
+    }
+    return places.size() > 3 ? text + " ..." : text;
   }
 
   MarkerQuery query_of(const SeriesSpec& series, int ink) const {
@@ -273,7 +322,8 @@ class Digitiser {
     for (const auto& one : markers) {
       auto point = to_point(one.at + corner, one.u[0], one.u[1]);
       if (series.error_bars) {
-        const auto bar = find_error_bar(map, marker, one.at, with_line);
+        // Where its ink is seen, not where complete() takes the point to be.
+        const auto bar = find_error_bar(map, marker, one.fit.origin + marker.reference, with_line);
         point.bar_pixel[0] = bar.lower + corner.y;
         point.bar_pixel[1] = bar.upper + corner.y;
         for (const double end : point.bar_pixel)
@@ -296,11 +346,11 @@ class Digitiser {
           "{}: series \"{}\": expected a line of colour {} in the plot area, found none", where_,
           series.name, hex_of(series.colour));
     if (line.explained < 0.7)
-      found_.problems.push_back(
+      found_.doubts.push_back(
           fmt::format("series \"{}\": the line explains {:.0f} % of the ink of its colour: a "
                       "second line, or one with several places for one abscissa",
                       series.name, 100 * line.explained));
-    complete(line.points, stroke_width(map.coverage), colours_.lossy);
+    complete(line.points, colours_.lossy);
     for (const auto& one : line.points)
       found.points.push_back(to_point(one.at + cv::Point2d(area_.tl()), one.u, one.u));
   }

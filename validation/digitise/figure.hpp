@@ -66,11 +66,12 @@ struct FoundSeries {
 
 struct Digitised {
   std::vector<FoundSeries> series;
-  double angle = 0;                ///< of the scan, degrees anticlockwise
-  cv::Rect2d plot_area;            ///< in the upright page [px]
-  std::vector<cv::Rect> left_out;  ///< legends and insets found, in the upright page [px]
-  std::vector<std::string> problems;
-  cv::Mat overlay;  ///< the upright page with what was found, 8-bit BGR
+  double angle = 0;                 ///< of the scan, degrees anticlockwise
+  cv::Rect2d plot_area;             ///< in the upright page [px]
+  std::vector<cv::Rect> left_out;   ///< legends and insets found, in the upright page [px]
+  std::vector<std::string> notes;   ///< what was done unasked
+  std::vector<std::string> doubts;  ///< what may be wrong
+  cv::Mat overlay;                  ///< the upright page with what was found, 8-bit BGR
 };
 
 /// Finds the series of `figure` in `picture` (8-bit BGR). `lossy`: from a JPEG.

@@ -2,6 +2,7 @@
 #include "validation/digitise/lines.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
@@ -48,10 +49,14 @@ std::vector<Run> runs_of(const InkMap& map, const std::vector<LinePoint>& throug
       ++end;
     Run run;
     run.column = column;
-    const auto unknown = [&](int row) {
-      return row < 0 || row >= rows || map.unknown.at<uchar>(row, column) != 0;
+    const auto hidden = [&](int row, int at) {
+      return row < 0 || row >= rows || at < 0 || at >= map.coverage.cols ||
+             map.unknown.at<uchar>(row, at) != 0;
     };
-    run.cut = unknown(y - 1) || unknown(end);
+    const auto unknown = [&](int row) { return hidden(row, column); };
+    const int row_inside = (y + end) / 2;
+    run.cut = unknown(y - 1) || unknown(end) || hidden(row_inside, column - 1) ||
+              hidden(row_inside, column + 1);
     // The faint rows at both edges belong to it.
     double moment = 0;
     for (int row = std::max(0, y - 1); row < std::min(rows, end + 1); ++row) {
@@ -154,6 +159,78 @@ Path whole_path(const InkMap& map, const std::vector<LinePoint>& through) {
   return whole;
 }
 
+/// Runs of one unbroken piece of the line: all of it, or a dash.
+struct Dash {
+  std::size_t from = 0, to = 0;
+  double mass = 0, x = 0, y = 0;  ///< its ink and the centroid of that
+  bool whole = true;
+};
+
+std::vector<Dash> dashes_of(const std::vector<Run>& runs) {
+  std::vector<Dash> dashes;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (runs[i].u > 0) continue;  // a marker
+    const bool joined = !dashes.empty() && dashes.back().to == i &&
+                        runs[i].column == runs[i - 1].column + 1 &&
+                        runs[i].top <= runs[i - 1].bottom && runs[i].bottom >= runs[i - 1].top;
+    if (!joined) dashes.push_back({i, i});
+    auto& dash = dashes.back();
+    dash.to = i + 1;
+    dash.mass += runs[i].mass;
+    dash.x += runs[i].mass * (runs[i].column + 0.5);
+    dash.y += runs[i].mass * runs[i].middle;
+    dash.whole = dash.whole && !runs[i].cut;
+  }
+  for (auto& dash : dashes) {
+    dash.x /= dash.mass;
+    dash.y /= dash.mass;
+  }
+  return dashes;
+}
+
+/// A dash ends across the line, not along a column: where the line is steep, the middle of a run
+/// within a stroke's width of the end is off the line by up to half of that. The runs at the ends
+/// count as cut; a dash that has hardly more than ends, or a dot, becomes one run at its centroid,
+/// which by symmetry lies on the line.
+std::vector<Run> clear_of_ends(const std::vector<Run>& runs, double stroke) {
+  const auto width = static_cast<std::size_t>(cvCeil(stroke));
+  const auto dashes = dashes_of(runs);
+  std::vector<Run> clear;
+  for (const auto& run : runs)
+    if (run.u > 0) clear.push_back(run);
+  for (std::size_t k = 0; k < dashes.size(); ++k) {
+    const auto& dash = dashes[k];
+    std::vector<Run> own(runs.begin() + static_cast<std::ptrdiff_t>(dash.from),
+                         runs.begin() + static_cast<std::ptrdiff_t>(dash.to));
+    const auto& before = k > 0 ? dashes[k - 1] : dash;
+    const auto& after = k + 1 < dashes.size() ? dashes[k + 1] : dash;
+    const double overall = after.x > before.x ? (after.y - before.y) / (after.x - before.x) : 0;
+    std::array<std::size_t, 2> ends{};  // how many runs they have
+    for (auto& end : ends) {
+      const double slope = own.size() >= 4 * width ? (own[2 * width].middle - own[width].middle) /
+                                                         static_cast<double>(width)
+                                                   : overall;
+      end = static_cast<std::size_t>(cvCeil(stroke * std::abs(slope) / std::hypot(1, slope)));
+      std::reverse(own.begin(), own.end());
+    }
+    if (own.size() >= ends[0] + ends[1] + 2 * width) {
+      for (std::size_t i = 0; i < ends[0]; ++i) own[i].cut = true;
+      for (std::size_t i = 0; i < ends[1]; ++i) own[own.size() - 1 - i].cut = true;
+    } else if (dash.whole) {
+      Run centre = own[own.size() / 2];
+      centre.column = cvFloor(dash.x);
+      centre.middle = dash.y + overall * (centre.column + 0.5 - dash.x);
+      own = {centre};
+    } else {
+      for (auto& run : own) run.cut = true;
+    }
+    clear.insert(clear.end(), own.begin(), own.end());
+  }
+  std::sort(clear.begin(), clear.end(),
+            [](const Run& a, const Run& b) { return a.column < b.column; });
+  return clear;
+}
+
 /// A parabola through the runs around `centre` that are not cut: the line's place in its column and
 /// how far the runs are off it, across the line.
 std::optional<LinePoint> local_place(const std::vector<Run>& runs, std::size_t centre,
@@ -190,7 +267,7 @@ std::optional<LinePoint> local_place(const std::vector<Run>& runs, std::size_t c
 /// At most `points` places, equally spaced along the path, so that steep parts have theirs.
 TracedLine sample(const Path& path, double stroke, int points) {
   TracedLine line;
-  const auto& runs = path.runs;
+  const auto runs = clear_of_ends(path.runs, stroke);
   if (runs.empty()) return line;
   std::vector<double> along{0};
   for (std::size_t i = 1; i < runs.size(); ++i)

@@ -8,7 +8,6 @@
 namespace bedscope::digitise {
 namespace {
 
-constexpr double accepted = 0.6;  // of a fit's score
 constexpr double least_known = 0.35;
 
 /// Where a template may lie, coarsely: peaks of the correlation at a size of a dozen pixels.
@@ -47,7 +46,7 @@ struct Candidate {
 double worth(const Fit& fit) { return fit.score * std::sqrt(fit.known); }
 
 bool good(const Fit& fit) {
-  return fit.score > accepted && fit.known > least_known && fit.least_part > 0.45;
+  return fit.score > least_score && fit.known > least_known && fit.least_part > 0.45;
 }
 
 /// What the template explains is not to be explained again.

@@ -8,6 +8,8 @@
 
 namespace bedscope::digitise {
 
+inline constexpr double least_score = 0.6;  ///< of a fit that is taken for a marker
+
 /// What to look for in one ink.
 struct MarkerQuery {
   std::optional<Shape> shape;

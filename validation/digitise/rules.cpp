@@ -157,8 +157,9 @@ std::optional<cv::Rect2d> shaded_area(const cv::Mat& page, const cv::Rect2d& ins
   return cv::Rect2d(left, top, right - left, bottom - top);
 }
 
-cv::Rect2d plot_area(const Rules& rules, const cv::Rect2d& inside, cv::Size page) {
+PlotArea plot_area(const Rules& rules, const cv::Rect2d& inside, cv::Size page) {
   constexpr double slack = 4;
+  bool guess = false;
   // The ends of the lines that run this way and meet the box; where a tick goes on beyond a corner,
   // the line across there is the edge.
   const auto edges = [&](const std::vector<Rule>& along, const std::vector<Rule>& across,
@@ -174,6 +175,7 @@ cv::Rect2d plot_area(const Rules& rules, const cv::Rect2d& inside, cv::Size page
       to = found ? std::max(to, rule.to) : rule.to;
       found = true;
     }
+    guess = guess || !found;
     const double tick = 0.04 * (to - from);
     double first = to, last = from;
     for (const auto& rule : across)
@@ -187,7 +189,7 @@ cv::Rect2d plot_area(const Rules& rules, const cv::Rect2d& inside, cv::Size page
                                    inside.br().y, page.width);
   const auto [top, bottom] = edges(rules.columns, rules.rows, inside.y, inside.br().y, inside.x,
                                    inside.br().x, page.height);
-  return {left, top, right - left, bottom - top};
+  return {{left, top, right - left, bottom - top}, guess};
 }
 
 }  // namespace bedscope::digitise

@@ -32,7 +32,11 @@ std::optional<double> angle_of(const Rules& rules);
 std::optional<cv::Rect2d> shaded_area(const cv::Mat& page, const cv::Rect2d& inside);
 
 /// The plot area: of the lines that cross or touch `inside` (the box of the calibration points) and
-/// of the ends of those across them. `inside` grown by an eighth where there are none.
-cv::Rect2d plot_area(const Rules& rules, const cv::Rect2d& inside, cv::Size page);
+/// of the ends of those across them. `inside` grown by an eighth where there are none: a guess.
+struct PlotArea {
+  cv::Rect2d box;
+  bool guess = false;
+};
+PlotArea plot_area(const Rules& rules, const cv::Rect2d& inside, cv::Size page);
 
 }  // namespace bedscope::digitise

@@ -59,8 +59,9 @@ cv::Rect2d largest_area(const Rules& rules, cv::Size size) {
                         column.at > row.from - 6 && column.at < row.to + 6;
       if (!meet || row.length() * column.length() <= best.area()) continue;
       if (row.length() > 0.98 * size.width || column.length() > 0.98 * size.height) continue;
-      best = plot_area(
-          rules, {row.from + 2, column.from + 2, row.length() - 4, column.length() - 4}, size);
+      best = plot_area(rules,
+                       {row.from + 2, column.from + 2, row.length() - 4, column.length() - 4}, size)
+                 .box;
     }
   return best;
 }

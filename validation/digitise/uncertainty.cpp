@@ -20,22 +20,29 @@ std::complex<double> mean_fraction(const std::vector<Marker>& markers, int axis)
   return sum / static_cast<double>(markers.size());
 }
 
+double mean_u(const std::vector<Marker>& markers, int axis) {
+  double sum = 0;
+  for (const auto& marker : markers) sum += marker.u[axis];
+  return sum / static_cast<double>(markers.size());
+}
+
 }  // namespace
 
 void complete(std::vector<Marker>& markers, int reduction, bool turned, bool lossy) {
   if (markers.empty()) return;
-  const double chance = 1 / std::sqrt(static_cast<double>(markers.size()));
+  const auto n = static_cast<double>(markers.size());
   for (int axis = 0; axis < 2; ++axis) {
     const auto mean = mean_fraction(markers, axis);
-    double shift = 0, grid = 0.08;
-    if (reduction > 1 || markers.size() < 4) {  // nothing to tell from
-      shift = 0.25 / reduction;
-      grid = 0.3 / reduction;
-    } else if (std::abs(mean) > std::max(0.45, 2 * chance)) {
+    // An error of 0.2 px would make alike fractions look different: |mean| = exp(-2 pi^2 0.04).
+    const bool seen = !turned && reduction == 1 && n >= 4 && mean_u(markers, axis) < 0.15;
+    double shift = 0.25 / reduction, grid = 0.33 / reduction;
+    if (seen && std::abs(mean) > std::max(0.45, 2 / std::sqrt(n)) && mean.real() > 0) {
       // A quarter of a pixel, as twice that holds almost all of an error of up to half a pixel.
-      const bool on_edges = !turned && mean.real() > 0;
-      shift = on_edges ? 0 : 0.25;
-      grid = on_edges ? 0.25 : 0.33;
+      shift = 0;
+      grid = 0.25;
+    } else if (seen && n >= 8 && std::abs(mean) < 0.45) {  // by chance 1 / sqrt(n)
+      shift = 0;
+      grid = 0.08;
     }
     for (auto& marker : markers) {
       (axis == 0 ? marker.at.x : marker.at.y) -= shift;
@@ -44,8 +51,8 @@ void complete(std::vector<Marker>& markers, int reduction, bool turned, bool los
   }
 }
 
-void complete(std::vector<LinePoint>& points, double stroke, bool lossy) {
-  for (auto& point : points) point.u = std::hypot(point.u, 0.08 + 0.02 * stroke, lossy ? 0.1 : 0.0);
+void complete(std::vector<LinePoint>& points, bool lossy) {
+  for (auto& point : points) point.u = std::hypot(point.u, 0.08, lossy ? 0.1 : 0.0);
 }
 
 }  // namespace bedscope::digitise

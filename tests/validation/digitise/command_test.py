@@ -167,6 +167,20 @@ class Command(unittest.TestCase):
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertEqual(len(self.rows()), len(POINTS))
 
+    def test_what_is_doubtful_is_said_on_stderr(self):
+        run = self.run_it('image = "fig.png"\n' + X + Y + SERIES, "--quiet")
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        with Image.open(self.at("fig.png")) as picture:
+            framed = picture.convert("RGB")
+        for x in range(400):
+            for y in range(300):
+                if max(framed.getpixel((x, y))) - min(framed.getpixel((x, y))) < 10:
+                    framed.putpixel((x, y), (255, 255, 255))
+        framed.save(self.at("fig.png"))
+        run = self.run_it('image = "fig.png"\n' + X + Y + SERIES, "--quiet")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn("doubtful: no frame was found", run.stderr)
+
     def test_suggestion_shows_area_and_ticks(self):
         run = subprocess.run([PROGRAM, "digitise", "--suggest", self.at("fig.png")], capture_output=True, text=True)
         self.assertEqual(run.returncode, 0, run.stderr)

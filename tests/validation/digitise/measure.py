@@ -93,6 +93,21 @@ def compare(truth, csv_path):
     return results
 
 
+def give_or_take(results, inside):
+    """Standard error of the share of points that 2u covers: those of a plot share its calibration, so that
+    whole plots are the sample (ratio estimator; Cochran, Sampling Techniques, 1977, ch. 6)."""
+    plots = {}
+    for r, within in zip(results, inside):
+        n = plots.setdefault(r["name"], [0, 0])
+        n[0] += within.size
+        n[1] += int(within.sum())
+    points, covered = np.array(list(plots.values()), float).T
+    if len(plots) < 2 or not points.sum():
+        return math.nan
+    off = covered - covered.sum() / points.sum() * points
+    return float(np.sqrt((off**2).sum() * len(plots) / (len(plots) - 1)) / points.sum())
+
+
 def summary(results):
     """The figures of docs/digitiser.md over a list of results."""
     lines = {}
@@ -102,7 +117,9 @@ def summary(results):
         e = np.abs(np.concatenate([r["errors"].ravel() for r in markers]))
         u = np.concatenate([r["u"].ravel() for r in markers])
         lines["markers"] = dict(series=len(markers), points=len(e) // 2, p95=float(np.percentile(e, 95)) if len(e) else math.nan,
-                                covered=float((e <= 2 * u).mean()), median_2u=float(np.median(2 * u)),
+                                covered=float((e <= 2 * u).mean()),
+                                give_or_take=give_or_take(markers, [np.abs(r["errors"]) <= 2 * r["u"] for r in markers]),
+                                median_2u=float(np.median(2 * u)),
                                 missed=sum(r["missed"] for r in markers), invented=sum(r["invented"] for r in markers))
         bars = [r["bars"].ravel() for r in markers if "bars" in r]
         if bars:
@@ -115,7 +132,9 @@ def summary(results):
         u = np.concatenate([r["u"] for r in curves])
         lines["lines"] = dict(series=len(curves), points=len(e), p95=float(np.percentile(e, 95)),
                               worst=float(e.max()), beyond=float((e > 0.005).mean()),
-                              covered=float((e <= 2 * u).mean()), median_2u=float(np.median(2 * u)),
+                              covered=float((e <= 2 * u).mean()),
+                              give_or_take=give_or_take(curves, [r["errors"] <= 2 * r["u"] for r in curves]),
+                              median_2u=float(np.median(2 * u)),
                               followed=float(np.mean([r["followed"] for r in curves])))
     return lines
 

@@ -7,21 +7,20 @@
 
 #include "readers/error.hpp"
 #include "validation/digitise/calibration.hpp"
+#include "validation/digitise/doubt.hpp"
+#include "validation/digitise/lines.hpp"
 #include "validation/digitise/page.hpp"
 #include "validation/digitise/rules.hpp"
 #include "validation/digitise/stroke.hpp"
 #include "validation/digitise/table.hpp"
 #include "validation/digitise/template.hpp"
+#include "validation/digitise/uncertainty.hpp"
 
 namespace bedscope::digitise {
 namespace {
 
 AxisSpec axis(std::vector<CalibrationPoint> points, bool log = false) {
-  AxisSpec spec;
-  spec.name = "v";
-  spec.log = log;
-  spec.points = std::move(points);
-  return spec;
+  return {"v", "-", log, std::move(points)};
 }
 
 TEST(Calibration, TwoPointsAreALineAndTheirErrorIsThatOfTheirPixels) {
@@ -59,17 +58,37 @@ TEST(Calibration, SingularAndImpossibleOnesAreErrors) {
 
 TEST(Calibration, APickedPixelStandsForTheOneLineBesideIt) {
   const auto picked = axis({{{100, 0}, 0}, {{300, 0}, 1}});
-  // The line at 101.5 was meant; at 300 it cannot be told which, and there is none at 500.
-  const auto places = places_of(picked, {100, 300, 500}, {101.5, 299, 301}, 1);
-  EXPECT_DOUBLE_EQ(places[0].at, 101.5);
+  // The line at 101 was meant; at 300 it cannot be told which, and there is none at 500.
+  const auto places = places_of(picked, {100, 300, 500}, {101, 299, 301}, 1, false);
+  EXPECT_DOUBLE_EQ(places[0].at, 101);
   EXPECT_DOUBLE_EQ(places[1].at, 300);
   EXPECT_DOUBLE_EQ(places[2].at, 500);
   EXPECT_NEAR(places[0].u, 0.5 / std::sqrt(3.0), 1e-12);
   EXPECT_NEAR(places[1].u, 1 / std::sqrt(3.0), 1e-12);
   // What was measured is left as it is.
   const auto measured = axis({{{100.25, 0}, 0}, {{300, 0}, 1}});
-  EXPECT_DOUBLE_EQ(places_of(measured, {100.25, 300}, {101}, 1)[0].at, 100.25);
-  EXPECT_DOUBLE_EQ(places_of(measured, {100.25, 300}, {101}, 1)[0].u, 0.1);
+  EXPECT_DOUBLE_EQ(places_of(measured, {100.25, 300}, {101}, 1, false)[0].at, 100.25);
+  EXPECT_DOUBLE_EQ(places_of(measured, {100.25, 300}, {101}, 1, false)[0].u, 0.1);
+}
+
+TEST(Calibration, LinesOnTheMiddlesOfPixelsShareAnError) {
+  const auto picked = axis({{{100, 0}, 0.0}, {{300, 0}, 2.0}});
+  // What one program draws at 101 another draws at 101.5: a quarter to each side of 101.25.
+  const auto places = places_of(picked, {100, 300}, {101.5, 300.5}, 1, false);
+  EXPECT_DOUBLE_EQ(places[0].at, 101.25);
+  EXPECT_DOUBLE_EQ(places[1].at, 300.25);
+  // It does not become smaller in the middle between them, as that of their rounding does.
+  const double rounding = 0.5 / std::sqrt(3.0), value_of_pixel = 2.0 / 199;
+  const auto found = calibrate(picked, places, "f");
+  EXPECT_NEAR(found.uncertainty(200.75, 0),
+              value_of_pixel * std::hypot(rounding / std::sqrt(2.0), 0.25), 1e-12);
+  EXPECT_NEAR(found.uncertainty(101.25, 0), value_of_pixel * std::hypot(rounding, 0.25), 1e-12);
+  // Between two pixels it can only be rounded; on a turned page that cannot be seen.
+  EXPECT_DOUBLE_EQ(places_of(picked, {100, 300}, {101, 300}, 1, false)[0].shared, 0);
+  EXPECT_DOUBLE_EQ(places_of(picked, {100, 300}, {101, 300}, 1, true)[0].shared, 0.25);
+  // Two pixels of the picture in one of the page: 50.75 is the middle of its pixel 101.
+  EXPECT_DOUBLE_EQ(places_of(picked, {50, 150}, {50.75, 150}, 0.5, false)[0].shared, 0.125);
+  EXPECT_DOUBLE_EQ(places_of(picked, {50, 150}, {50.75, 150}, 0.5, false)[1].shared, 0);
 }
 
 TEST(Calibration, AngleOfPointsNeedsAxesThatAgree) {
@@ -183,6 +202,99 @@ TEST(Stroke, ManyFilledMarkersOnALineDoNotPassForAThickStroke) {
   ink.rowRange(98, 102).colRange(10, 290).setTo(1);  // a line of 4
   for (int x = 25; x < 290; x += 25) cv::circle(ink, {x, 100}, 9, cv::Scalar(1), cv::FILLED);
   EXPECT_NEAR(line_width(ink), 4, 0.3);
+}
+
+std::vector<Marker> markers_at(const std::vector<double>& x) {
+  std::vector<Marker> markers(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    markers[i].at = {x[i], 10.0 * static_cast<double>(i)};
+    markers[i].fit.score = 0.95;
+  }
+  return markers;
+}
+
+TEST(Uncertainty, WholePixelsAreExcludedOnlyByWhatIsSeen) {
+  const std::vector<double> on_edges = {3, 18, 40, 77, 91, 120, 133, 150},
+                            anywhere = {3.1, 18.9, 40.4, 77.6, 91.25, 120.75, 133.5, 150.05};
+  const auto expect = [](const std::vector<double>& x, int reduction, bool turned, double shift,
+                         double u) {
+    auto markers = markers_at(x);
+    complete(markers, reduction, turned, false);
+    EXPECT_NEAR(markers[0].at.x, x[0] - shift, 1e-12);
+    EXPECT_NEAR(markers[0].u[0], u, 1e-12);
+  };
+  expect(on_edges, 1, false, 0, 0.25);
+  expect(anywhere, 1, false, 0, 0.08);
+  // A page that was turned, and a few markers, show nothing of the pixels they were drawn on.
+  expect(anywhere, 1, true, 0.25, 0.33);
+  expect({3.1, 18.9, 40.4}, 1, false, 0.25, 0.33);
+  expect(anywhere, 2, false, 0.125, 0.165);
+}
+
+/// A dashed straight line through (`x`, 20) of `width` pixels, drawn in eighths of them.
+InkMap dashed_line(double x, double slope, double width, double dash, double gap) {
+  constexpr int fine = 8, rows = 240, columns = 200;
+  cv::Mat canvas = cv::Mat::zeros(fine * rows, fine * columns, CV_8U), coverage;
+  const cv::Point2d along = cv::Point2d(1, slope) / std::hypot(1, slope),
+                    side = cv::Point2d(-along.y, along.x) * (width / 2), first(x, 20);
+  for (double t = 0; first.y + t * along.y < 95; t += dash + gap) {
+    const cv::Point2d a = first + t * along, b = a + dash * along;
+    std::vector<cv::Point> corners;
+    for (const auto p : {a + side, b + side, b - side, a - side})
+      corners.emplace_back(cvRound(fine * p.x - 0.5), cvRound(fine * p.y - 0.5));
+    cv::fillConvexPoly(canvas, corners, cv::Scalar(255));
+  }
+  cv::resize(canvas, canvas, {columns, rows}, 0, 0, cv::INTER_AREA);
+  canvas.convertTo(coverage, CV_32F, 1 / 255.0);
+  return {coverage, cv::Mat::zeros(rows, columns, CV_8U)};
+}
+
+TEST(Lines, DashesAndDotsOfSteepLinesAreReadWhereTheirEndsDoNotShift) {
+  for (const double slope : {0.5, 1.3})
+    for (const auto& [dash, gap] : {std::pair(16.0, 7.0), {3.0, 5.0}}) {
+      const auto line = trace_line(dashed_line(20, slope, 3, dash, gap), {}, 200);
+      ASSERT_GT(line.points.size(), 8U);
+      // The corners are on eighths of a pixel; an end's shift would be up to 1.5 px.
+      for (const auto& point : line.points)
+        EXPECT_NEAR((point.at.y - 20 - slope * (point.at.x - 20)) / std::hypot(1, slope), 0, 0.15)
+            << slope << " " << dash << " " << point.at.x;
+    }
+}
+
+TEST(Doubt, AMarkerThatFitsMuchWorseThanItsSeries) {
+  auto markers = markers_at({10, 20, 30, 40, 50});
+  markers[1].fit.score = 0.85;  // a bar goes through it
+  EXPECT_TRUE(unlike_others(markers).empty());
+  markers[3].fit.score = 0.65;
+  ASSERT_EQ(unlike_others(markers).size(), 1U);
+  EXPECT_EQ(unlike_others(markers)[0], markers[3].at);
+}
+
+TEST(Doubt, WhatLooksLikeAMarkerAndWasNotTaken) {
+  const Shape square{Outline::square, Fill::filled}, ring{Outline::circle, Fill::open};
+  const auto marker = make_template(draw_shape(square, {14, 14}, 2, {18, 18}), square);
+  InkMap rest{cv::Mat::zeros(100, 200, CV_32F), cv::Mat::zeros(100, 200, CV_8U)};
+  cv::line(rest.coverage, {10, 90}, {190, 60}, cv::Scalar(1), 2);   // a curve
+  cv::line(rest.coverage, {100, 10}, {114, 24}, cv::Scalar(1), 2);  // a piece of one
+  EXPECT_TRUE(missed_markers(rest, {marker}).empty());
+  rest.coverage(cv::Rect(150, 20, 14, 14)).setTo(1);  // one of them
+  ASSERT_EQ(missed_markers(rest, {marker}).size(), 1U);
+  EXPECT_NEAR(missed_markers(rest, {marker})[0].x, 157, 1);
+  rest.coverage(cv::Rect(150, 20, 14, 14)).setTo(0);
+  // Three of another shape.
+  for (const int x : {20, 50, 80})
+    draw_shape(ring, {16, 16}, 2, {20, 20}).copyTo(rest.coverage(cv::Rect(x, 20, 20, 20)));
+  EXPECT_EQ(missed_markers(rest, {marker}).size(), 3U);
+}
+
+TEST(Doubt, AnInkThatNoiseCannotTellFromAnother) {
+  Colours colours;
+  colours.inks = {{82, 132, 221}, {82, 78, 196}, {104, 168, 85}};
+  colours.lossy = true;
+  EXPECT_EQ(ink_beside(colours, 0), 1);
+  EXPECT_EQ(ink_beside(colours, 2), -1);
+  colours.lossy = false;
+  EXPECT_EQ(ink_beside(colours, 0), -1);
 }
 
 TEST(Table, QuotesNamesAndWritesNan) {

@@ -12,14 +12,14 @@ import plots
 
 
 def digitise(program, truth):
-    """What compare() gives, or the one line of the error."""
+    """What compare() gives and what the program doubts, or the one line of the error."""
     csv = Path(truth["toml"]).with_suffix(".csv")
     csv.unlink(missing_ok=True)
     begun = time.time()
     run = subprocess.run([program, "digitise", truth["toml"], "-o", str(csv)], capture_output=True, text=True)
     if run.returncode != 0:
         return None, f"exit {run.returncode}: {run.stderr.strip()}", time.time() - begun
-    return measure.compare(truth, csv), run.stdout, time.time() - begun
+    return measure.compare(truth, csv), run.stderr, time.time() - begun
 
 
 def main():

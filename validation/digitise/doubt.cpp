@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "validation/digitise/doubt.hpp"
+
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+
+#include "validation/digitise/pieces.hpp"
+
+namespace bedscope::digitise {
+namespace {
+
+/// A part of a marker may be hidden by another curve, and bars may hang on it.
+bool of_size(const cv::Rect& box, double ink, const Template& marker) {
+  const auto about = [](double a, double b, double most) { return a > 0.35 * b && a < most * b; };
+  return about(box.width, marker.box.width, 1.5) && about(box.height, marker.box.height, 1.5) &&
+         about(ink, cv::sum(marker.ink)[0], 2);
+}
+
+cv::Point2d middle_of(const cv::Rect& box) {
+  return {box.x + box.width / 2.0, box.y + box.height / 2.0};
+}
+
+/// Half of what a marker has to be.
+bool resembles(const InkMap& rest, const cv::Rect& box, const Template& marker) {
+  const auto found = fit(marker, rest, middle_of(box));
+  return found.score > least_score / 2 && found.least_part > 0.22;
+}
+
+}  // namespace
+
+std::vector<cv::Point2d> missed_markers(const InkMap& rest,
+                                        const std::vector<Template>& templates) {
+  cv::Mat mask = rest.coverage > 0.28F, labels, stats, centres;
+  mask.setTo(0, rest.unknown);
+  const int n = cv::connectedComponentsWithStats(mask, labels, stats, centres, 8);
+  std::vector<double> ink(n);
+  for (int y = 0; y < mask.rows; ++y)
+    for (int x = 0; x < mask.cols; ++x) ink[labels.at<int>(y, x)] += rest.coverage.at<float>(y, x);
+  std::vector<cv::Point2d> places;
+  for (int i = 1; i < n; ++i) {
+    const cv::Rect box(stats.at<int>(i, cv::CC_STAT_LEFT), stats.at<int>(i, cv::CC_STAT_TOP),
+                       stats.at<int>(i, cv::CC_STAT_WIDTH), stats.at<int>(i, cv::CC_STAT_HEIGHT));
+    if (std::any_of(templates.begin(), templates.end(), [&](const Template& marker) {
+          return of_size(box, ink[i], marker) && resembles(rest, box, marker);
+        }))
+      places.push_back(middle_of(box));
+  }
+  if (!places.empty()) return places;
+  auto pieces = pieces_of(mask, rest);
+  std::erase_if(pieces, [&](const Piece& piece) {  // ticks, dots, caps
+    return std::any_of(templates.begin(), templates.end(), [&](const Template& marker) {
+      return std::min(piece.box.width, piece.box.height) <
+             std::min(marker.box.width, marker.box.height) / 2;
+    });
+  });
+  const auto group = best_group(pieces, rest.coverage, candidates(std::nullopt), 0.88);
+  if (group && group->pieces.size() >= 3)
+    for (const auto& piece : group->pieces) places.push_back(middle_of(piece.box));
+  return places;
+}
+
+std::vector<cv::Point2d> unlike_others(const std::vector<Marker>& markers) {
+  std::vector<cv::Point2d> places;
+  if (markers.size() < 4) return places;
+  std::vector<double> scores;
+  for (const auto& marker : markers) scores.push_back(marker.fit.score);
+  std::sort(scores.begin(), scores.end());
+  const double between = (least_score + scores[scores.size() / 2]) / 2;
+  for (const auto& marker : markers)
+    if (marker.fit.score < between) places.push_back(marker.at);
+  return places;
+}
+
+int ink_beside(const Colours& colours, int ink) {
+  if (!colours.lossy) return -1;
+  for (std::size_t k = 0; k < colours.inks.size(); ++k)
+    if (static_cast<int>(k) != ink &&
+        cv::norm(colours.inks[k] - colours.inks[static_cast<std::size_t>(ink)]) < same_ink)
+      return static_cast<int>(k);
+  return -1;
+}
+
+}  // namespace bedscope::digitise
