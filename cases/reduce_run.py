@@ -75,3 +75,27 @@ def main():
     parser.add_argument("case", type=pathlib.Path)
     parser.add_argument("run", type=pathlib.Path)
     parser.add_argument("--at", type=lambda text: [float(t) for t in text.split(",")], default=[])
+    parser.add_argument("--blocks", type=int, default=1)
+    parser.add_argument("--heights", type=lambda text: [float(h) for h in text.split(",")], default=[])
+    parser.add_argument("--cell", type=lambda text: [float(edge) for edge in text.split(",")])
+    parser.add_argument("--bedscope", default="bedscope")
+    asked = parser.parse_args()
+    record = json.loads((asked.case / "run.json").read_text())
+    if record["state"] != "done":
+        sys.exit(f"{asked.case}/run.json: expected state \"done\", found \"{record['state']}\"")
+    scene = tomllib.loads((asked.case / "scene.toml").read_text())
+    windows = windows_of(scene["numerics"], asked.run.name.replace("_", " "), asked.at, asked.blocks)
+    (asked.case / "study.toml").write_text(study_of(scene, windows, asked.heights, asked.cell))
+    subprocess.run([asked.bedscope, "analyse", "study.toml", "-o", "reduced", "--tables-only", "--quiet"], cwd=asked.case, check=True)
+    tables = asked.run / "tables"
+    tables.mkdir(parents=True, exist_ok=True)
+    for table in sorted((asked.case / "reduced/tables").glob("*.csv")):
+        if table.name not in LEFT_OUT and len(table.read_text().splitlines()) > 1:
+            shutil.copy(table, tables)
+    if scene.get("inlet", {}).get("particles", "closed") != "closed":
+        write_flux(asked.case, scene, windows, tables)
+    for name in ("scene.toml", "study.toml", "run.json"):
+        shutil.copy(asked.case / name, asked.run)
+
+
+main()
