@@ -84,6 +84,7 @@ std::string history_of(const Verdict& verdict, const ValidationReport& report) {
 constexpr std::string_view own_style = R"(<style>
   .checks td, .checks th { text-align: left; white-space: normal; overflow-wrap: anywhere; min-width: 0; }
   .checks thead th { overflow-wrap: normal; }
+  .checks .run { min-width: 4.5rem; }
   .checks .number, .checks th:first-child { white-space: nowrap; }
   .checks .metric { overflow-wrap: normal; }
   section p { margin: .2rem 0; }
@@ -113,7 +114,7 @@ std::string table_of(const ValidationReport& report) {
     const auto& v = report.verdicts[k];
     const bool skipped = v.outcome == Outcome::skipped;
     table += fmt::format(
-        "<tr><td>{}</td><th scope=\"row\"><a href=\"#check{}\">{}</a></th><td>{}</td><td>{}</td>"
+        "<tr><td>{}</td><th scope=\"row\"><a href=\"#check{}\">{}</a></th><td class=\"run\">{}</td><td>{}</td>"
         "<td class=\"metric\">{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td>"
         "<td class=\"number\">{} {}</td>",
         badge(v.outcome), k + 1, escaped(where(v)), escaped(v.run),
