@@ -121,8 +121,8 @@ neighbor     {3:.6g} bin
 neigh_modify delay 0 binsize {4:.6g}
 timestep     {5:.12g}
 )",
-                     scene.title, steps(n.end, n.dem_step), unusual_moduli(scene),
-                     skin, largest_diameter(scene) + skin, n.dem_step);
+                     scene.title, steps(n.end, n.dem_step), unusual_moduli(scene), skin,
+                     largest_diameter(scene) + skin, n.dem_step);
 }
 
 std::string walls(const Scene& scene, const ParticleWalls& walls) {

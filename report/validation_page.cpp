@@ -114,7 +114,8 @@ std::string table_of(const ValidationReport& report) {
     const auto& v = report.verdicts[k];
     const bool skipped = v.outcome == Outcome::skipped;
     table += fmt::format(
-        "<tr><td>{}</td><th scope=\"row\"><a href=\"#check{}\">{}</a></th><td class=\"run\">{}</td><td>{}</td>"
+        "<tr><td>{}</td><th scope=\"row\"><a href=\"#check{}\">{}</a></th><td "
+        "class=\"run\">{}</td><td>{}</td>"
         "<td class=\"metric\">{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td>"
         "<td class=\"number\">{} {}</td>",
         badge(v.outcome), k + 1, escaped(where(v)), escaped(v.run),

@@ -224,7 +224,7 @@ class Decks(Case):
         text = self.read("CFD", "constant", "coupledProperties")
         self.assertIn("policy  fed;", text)
         self.assertIn("massFlow 0.01344;", text)  # 32 kg/m2s 0.07 x 0.006 m2
-        self.assertIn("demSteps     10;", text)
+        self.assertIn("demSteps     20;", text)
         self.assertIn("type 1; diameter 0.0017; density 2500; fraction 1;", text)
         self.assertIn("point (0 0 0); normal (-1 0 0);", text)
 

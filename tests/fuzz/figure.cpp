@@ -36,7 +36,8 @@ void use(std::string_view input) {
   require(figure.x.points.size() > 1 && figure.y.points.size() > 1, "axes have points");
   add_input(picture.total() * picture.elemSize());
   const auto found = digitise::digitise(picture, false, figure, path);
-  for (const auto& problem : found.problems) require_line(problem);
+  for (const auto& note : found.notes) require_line(note);
+  for (const auto& doubt : found.doubts) require_line(doubt);
   require(!digitise::table_of(found, figure).empty(), "a table has its titles");
 }
 
