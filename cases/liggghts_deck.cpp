@@ -100,7 +100,7 @@ std::string head(const Scene& scene) {
   const auto& n = scene.numerics;
   const double skin = 0.5 * largest_diameter(scene);
   // Bins as wide as the reach of a contact. LIGGGHTS' own are half of that, in a riser 50 of them a
-  // particle, and each is cleared when neighbours are looked for: 30 % of a step.
+  // particle, and each is cleared when neighbours are looked for: 30 % of a run.
   return fmt::format(R"(# Scene: "{0}"
 # Written by bedscope case make. Run in the folder above: liggghts -in DEM/in.liggghts
 variable folder  index DEM
