@@ -52,11 +52,11 @@ class Costs(unittest.TestCase):
         def used():
             spent = resource.getrusage(resource.RUSAGE_CHILDREN)
             return spent.ru_utime + spent.ru_stime
-        case = restart.case(folder(self), 0.004)
+        case = restart.case(folder(self), 0.02)  # long beside what starting costs
         case.shell("decomposePar", "-case", "CFD")
         before = used()
         case.run(ranks=2, decompose=False)
-        restart.go_on(case, 0.008, 2)
+        restart.go_on(case, 0.04, 2)
         counted, spent = case.record()["costs"]["cpu_seconds"], used() - before
         print(f"{counted:.2f} s of CPU, {spent:.2f} s by the system's count")
         self.assertLess(counted, spent)
