@@ -28,6 +28,19 @@ namespace {
 
 constexpr double coverage_factor = 1.96;
 
+/// What `against` means, and the name in it. `number`: nothing to look up, as for a shape too.
+enum class Kind { number, theory, other_runs, run, baseline, curve };
+
+std::pair<Kind, std::string> source_of(const Check& check) {
+  if (check.against.empty()) return {Kind::number, ""};
+  if (check.against == "run:others") return {Kind::other_runs, ""};
+  for (const auto& [prefix, kind] : {std::pair<std::string_view, Kind>{"theory:", Kind::theory},
+                                     {"run:", Kind::run},
+                                     {"baseline:", Kind::baseline}})
+    if (check.against.starts_with(prefix)) return {kind, check.against.substr(prefix.size())};
+  return {Kind::curve, check.against};
+}
+
 Curve constant(const Check& check, const Sampled& result) {
   Curve curve{.name = fmt::format("{:.6g}", *check.number), .x = result.x, .y = result.y};
   for (const double x : result.at) curve.points.push_back({x, *check.number, 0, check.number_u});
@@ -149,47 +162,45 @@ Curve reduced(Curve curve, const Sampled& result) {
 Curve reference_of(const Check& check, const RunResult& run, const Sampled& result,
                    std::span<const RunResult> runs, const Curves& curves,
                    const std::string& study) {
-  if (check.number) return constant(check, result);
-  const auto after = [&](std::string_view prefix) { return check.against.substr(prefix.size()); };
-  if (check.against.starts_with("theory:"))
-    return theory_curve(after("theory:"), check.with, run, result);
-  if (check.against == "run:others") return mean_of_others(check, run, result, runs);
-  if (check.against.starts_with("run:")) {
-    const auto label = after("run:");
-    return as_curve(sample(run_of(runs, label), check.place), "run " + label);
+  const auto [kind, name] = source_of(check);
+  switch (kind) {
+    case Kind::number:
+      return constant(check, result);
+    case Kind::theory:
+      return theory_curve(name, check.with, run, result);
+    case Kind::other_runs:
+      return mean_of_others(check, run, result, runs);
+    case Kind::run:
+      return as_curve(sample(run_of(runs, name), check.place), "run " + name);
+    case Kind::baseline:
+      return baseline(name, check, run, result, study);
+    case Kind::curve:
+      break;
   }
-  if (check.against.starts_with("baseline:"))
-    return baseline(after("baseline:"), check, run, result, study);
-  return reduced(curves.curve(check.against, check.place.at), result);
+  return reduced(curves.curve(name, check.place.at), result);
 }
 
 void require_reference(const Check& check, std::span<const std::string> labels,
                        const Curves& curves, const std::string& study) {
-  const auto after = [&](std::string_view prefix) { return check.against.substr(prefix.size()); };
   const auto require_run = [&](const std::string& label) {
     if (std::find(labels.begin(), labels.end(), label) == labels.end())
       throw InputError("no run \"{}\", there are \"{}\"", label, fmt::join(labels, "\", \""));
   };
-  const auto require_another = [&](const std::string& label) {
-    require_run(label);
-    if (check.run == label || (check.run.empty() && labels.size() == 1))
-      throw InputError("run:{}: a run against itself, expected another one", label);
-  };
   try {
     if (!check.run.empty()) require_run(check.run);
-    if (check.against.empty()) return require_place_keys(check.place.at);
-    const bool is_curve = !check.against.starts_with("theory:") &&
-                          !check.against.starts_with("baseline:") &&
-                          !check.against.starts_with("run:");
-    if (!is_curve) require_place_keys(check.place.at);
-    if (check.against.starts_with("theory:"))
-      require_theory(after("theory:"), check.with);
-    else if (check.against.starts_with("baseline:"))
-      baseline_folder(after("baseline:"), study);
-    else if (check.against.starts_with("run:") && check.against != "run:others")
-      require_another(after("run:"));
-    else if (is_curve)
-      curves.curve(check.against, check.place.at);
+    const auto [kind, name] = source_of(check);
+    if (kind == Kind::curve) {
+      curves.curve(name, check.place.at);  // which may have keys of its own
+      return;
+    }
+    require_place_keys(check.place.at);
+    if (kind == Kind::theory) require_theory(name, check.with);
+    if (kind == Kind::baseline) baseline_folder(name, study);
+    if (kind == Kind::run) {
+      require_run(name);
+      if (check.run == name || (check.run.empty() && labels.size() == 1))
+        throw InputError("run:{}: a run against itself, expected another one", name);
+    }
   } catch (const MissingCurve&) {
     return;
   } catch (const InputError& error) {
