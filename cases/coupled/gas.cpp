@@ -50,6 +50,7 @@ Gas::Fields::Fields(Time& t, Settings s)
       voidfraction(must_read("voidfraction", time, mesh), mesh),
       U(must_read("U", time, mesh), mesh),
       p(must_read("p", time, mesh), mesh),
+      grad_p(fvc::grad(p)),
       phi(silent("phi", time, mesh), fvc::flux(U)),
       alphaPhi(silent("alphaPhi", time, mesh), fvc::interpolate(voidfraction) * phi),
       K(silent("K", time, mesh), mesh, dimensionedScalar(inv(dimTime), Zero)),
@@ -138,7 +139,7 @@ void copy(const vectorField& from, std::vector<double>& to) {
 
 void Gas::get_velocity(std::vector<double>& to) const { copy(f_->U.primitiveField(), to); }
 void Gas::get_pressure_gradient(std::vector<double>& to) const {
-  copy(fvc::grad(f_->p)().primitiveField(), to);
+  copy(f_->grad_p.primitiveField(), to);
 }
 void Gas::get_temperature(std::vector<double>& to) const {
   to.assign(f_->T->primitiveField().begin(), f_->T->primitiveField().end());
@@ -201,6 +202,7 @@ void Gas::load(std::FILE* file) {
       throw BadInput("checkpoint: written with another mesh, other ranks or other equations");
     expect(values.data(), bytes);
   });
+  f_->grad_p = fvc::grad(f_->p);
 }
 
 }  // namespace bedscope::coupled

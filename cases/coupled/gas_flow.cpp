@@ -31,7 +31,7 @@ void Gas::solve_flow() {
   else
     UEqn += f.K * f.U.oldTime();
   UEqn.relax();
-  if (piso.getOrDefault<bool>("momentumPredictor", true)) solve(UEqn == -eps * fvc::grad(f.p));
+  if (piso.getOrDefault<bool>("momentumPredictor", true)) solve(UEqn == -eps * f.grad_p);
 
   const auto start = std::chrono::steady_clock::now();
   const surfaceScalarField epsf(fvc::interpolate(eps));
@@ -55,7 +55,8 @@ void Gas::solve_flow() {
         f.phi = f.alphaPhi / epsf;
       }
     }
-    f.U = HbyA - epsrAU * fvc::grad(f.p);
+    f.grad_p = fvc::grad(f.p);
+    f.U = HbyA - epsrAU * f.grad_p;
     f.U.correctBoundaryConditions();
   }
   f.pressure_seconds +=
