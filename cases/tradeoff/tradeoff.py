@@ -9,7 +9,8 @@
 Each scene is a choice, SUBJECT_VALUE.toml. They are made, run one after the other in the order given (--jobs N: N at a time),
 reduced to --kept, and their folders in --work removed. What is done is not done again, what was interrupted goes on. Errors
 are against the finest run: that with the smallest particles, of these the most cells, the smallest steps. --draw runs
-nothing and draws from --kept. Needs gnuplot, and a python with scipy.
+nothing and draws from --kept. On a busy machine --costs SECONDS measures costs anew at the end, by short runs.
+Needs gnuplot, and a python with scipy.
 """
 import argparse
 import concurrent.futures
@@ -47,6 +48,8 @@ def run_all(asked):
 
     with concurrent.futures.ThreadPoolExecutor(asked.jobs) as pool:
         failed = any(list(pool.map(one, asked.scenes)))
+    if asked.costs:
+        runs.measure_costs(asked.scenes, asked.work, asked.kept, asked.costs)
     runs.keep_costs(asked.work, asked.kept)
     return failed
 
@@ -122,7 +125,8 @@ def page(asked, choices, costs, products, law, check, finest):
                 f"{e}" if not e.known else f"{e} [{errors.percent(e.noise)}]" for e in cells) + " |")
         lines.append("| the finest itself, 95 % interval | " + " | ".join(errors.percent(p["line"]) for p in products) + " |")
     if law:
-        lines += ["", f"CPU time of a gas step, {len(costs)} runs: {law}; 95 % intervals, scatter of the runs {errors.percent(law.scatter)}."]
+        alone = sum(c.alone for c in costs)
+        lines += ["", f"CPU time of a gas step, {len(costs)} runs ({alone} measured by themselves): {law}; 95 % intervals, scatter of the runs {errors.percent(law.scatter)}."]
         if check:
             run, other = check
             value, half = other.predict(run.particles, run.dem_steps, run.cells)
@@ -176,6 +180,8 @@ def main():
     parser.add_argument("--present", default="scene", help="the present choice; scene")
     parser.add_argument("--tolerance", type=float, default=0.1, help="of the sentences; 0.1")
     parser.add_argument("--check", help="the run that the law of cost is checked on; the finest")
+    parser.add_argument("--costs", type=float, metavar="SECONDS",
+                        help="at the end, measure costs by runs of this length from the start, in turn; let nothing run beside them")
     parser.add_argument("--draw", action="store_true")
     asked = parser.parse_args()
     if not asked.draw and not (asked.scenes and asked.work):

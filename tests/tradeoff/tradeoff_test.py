@@ -217,6 +217,15 @@ class Run(Folder):
         before = {p: p.stat().st_mtime_ns for p in self.kept.rglob("*") if p.is_file() and p.name != "README.md"}
         self.command(*words)  # nothing is left to do
         self.assertEqual(before, {p: p.stat().st_mtime_ns for p in before})
+        self.command(*words, "--costs", 0.02)
+        self.assertEqual(before, {p: p.stat().st_mtime_ns for p in before})
+        self.assertEqual(list((self.folder / "work").iterdir()), [])
+        choices, _ = runs.load(self.kept)
+        for choice in choices:
+            measured = json.loads((self.kept / choice.name / "cost.json").read_text())
+            self.assertEqual((choice.ms_per_step, measured["seconds"]), (measured["ms_per_step"], 0.02))
+            self.assertAlmostEqual(choice.per_second, 5 * choice.ms_per_step)  # 5000 steps a second
+            self.assertTrue(0.05 < choice.ms_per_step < 50, choice.ms_per_step)
 
     def test_a_case_of_another_scene_is_not_taken_for_this_one(self):
         base = ROOT / "cases/tradeoff/scene.toml"
