@@ -88,6 +88,17 @@ def interval(blocks, scale=None):
     return t * math.sqrt(float((scatter(blocks) ** 2).sum()) / len(blocks)) / (scale or size(blocks))
 
 
+def drift(blocks):
+    """Of one point: by how much it changes from the first block to the last, by a line through them, relative to its mean,
+    and the half-width of that at 95 % (Student's t)."""
+    y, n = blocks[0], blocks.shape[1]
+    x = numpy.arange(n) - (n - 1) / 2
+    slope = float(x @ y / (x @ x))
+    rest = y - y.mean() - slope * x
+    half = float(scipy.stats.t.ppf(0.975, n - 2)) * math.sqrt(float(rest @ rest) / (n - 2) / float(x @ x))
+    return (n - 1) * slope / size(blocks), (n - 1) * half / size(blocks)
+
+
 def scatter(blocks):
     """X with X X' the covariance of the mean over the blocks."""
     count = blocks.shape[1]

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What a run of a scene will cost, by the law of cost of the runs that are kept.
 
-    BEDSCOPE=build/release/app/bedscope cases/tradeoff/predict.py cases/riser/scene.toml --kept data/runs/tradeoff
+    BEDSCOPE=build/release/app/bedscope cases/tradeoff/predict.py cases/riser/scene.toml --kept data/runs/tradeoff*
 
 --seconds is the simulated time, the scene's numerics.end where it is not given. The runs were made on one machine; --like gives
 the folder of a run (a short one of K_4.toml, say) made on the machine that is meant, which then counts as so much slower or
@@ -19,11 +19,13 @@ from law import Law
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scene", type=pathlib.Path)
-    parser.add_argument("--kept", type=pathlib.Path, required=True)
+    parser.add_argument("--kept", type=pathlib.Path, nargs="+", required=True)
     parser.add_argument("--seconds", type=float)
     parser.add_argument("--like", type=pathlib.Path)
     asked = parser.parse_args()
-    law = Law(runs.load(asked.kept)[1])
+    costs = [cost for kept in asked.kept for cost in runs.load(kept)[1]]
+    law = Law(costs)
+    print(f"{len(costs)} runs: {law} (95 %), scatter {100 * law.scatter:.2g} %")
     with tempfile.TemporaryDirectory() as folder:
         scene = runs.scene_of(runs.made(asked.scene, pathlib.Path(folder) / "case"))
     numerics = scene["numerics"]

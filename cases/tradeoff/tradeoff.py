@@ -104,6 +104,11 @@ def page(asked, choices, costs, products, law, check, finest):
         lines.append("Errors need two runs that are done at least.")
     else:
         lines += [f"{p[0].upper()}{p[1:]}: {finest.name} has none.  " for p in runs.PRODUCTS if finest.products[p] is None]
+    for c in choices:
+        change, half = errors.drift(c.products["solids flux"])
+        if abs(change) > half:
+            lines.append(f"{c.name}: its solids flux changes by {100 * change:.2g} ± {100 * half:.2g} % over the window: is it still "
+                         "starting up?  ")
     lines.append("")
     lines += ["| choice | particles | cells | DEM steps a gas step | gas step [s] | run [s] | averaged [s] | CPU a gas step [ms] | "
               "particle-steps [million per s] | cell-steps [million per s] | core-s per s | clusters seen |",
@@ -112,7 +117,7 @@ def page(asked, choices, costs, products, law, check, finest):
     for c in sorted(costs, key=lambda c: c.per_second):
         d = done.get(c.name)
         lines.append(f"| {c.name} | {c.particles} | {c.cells} | {c.dem_steps:g} | {c.scene['numerics']['gas_step']:g} | "
-                     f"{c.reached:.3g}{'' if d else ', not done'} | {f'{d.averaged:g}' if d else ''} | {c.ms_per_step:.3g} | "
+                     f"{c.reached:.3g}{'' if d else ', not judged'} | {f'{d.averaged:g}' if d else ''} | {c.ms_per_step:.3g} | "
                      f"{c.particles * c.dem_steps * c.steps / c.reached / 1e6:.3g} | {c.cells * c.steps / c.reached / 1e6:.3g} | "
                      f"{c.per_second:.3g} | {f'{d.clusters:.0f}' if d else ''} |")
     if products:

@@ -82,6 +82,16 @@ class Errors(unittest.TestCase):
         found = errors.error(None, numpy.ones((1, 4)))
         self.assertEqual((found.value, found.known, str(found)), (1, False, "has none"))
 
+    def test_a_run_that_still_starts_up_drifts_and_noise_seldom_does(self):
+        change, half = errors.drift(numpy.array([[258.4, 309.1, 381.4, 409.5]]))
+        line = numpy.polynomial.polynomial.polyfit(range(4), [258.4, 309.1, 381.4, 409.5], 1)
+        self.assertAlmostEqual(change, 3 * line[1] / 339.6)
+        self.assertGreater(change, half)
+        rng = numpy.random.default_rng(4)
+        told = sum(abs(change) > half for change, half in
+                   (errors.drift(1 + 0.1 * rng.standard_normal((1, 5))) for _ in range(400)))
+        self.assertLess(told / 400, 0.05 + 4 * 0.011)  # 5 %, which 400 tries know to 1.1
+
     def test_front(self):
         self.assertEqual(errors.front([(3, 0.1, "c"), (1, 0.5, "a"), (2, 0.6, "b"), (4, 0.1, "d")]), ["a", "c"])
 
@@ -186,7 +196,7 @@ class Drawn(Folder):
         self.assertEqual(float(rows["axial holdup", "scene"]["core-seconds per second"]), 50.0)
         self.assertEqual(rows["cluster holdup", "K_4"]["low [-]"], "nan")
         page = (self.kept / "README.md").read_text()
-        self.assertIn("| cells_fine | 9000 | 9000 | 20 | 0.0002 | 6, not done |", page)
+        self.assertIn("| cells_fine | 9000 | 9000 | 20 | 0.0002 | 6, not judged |", page)
         self.assertIn("Axial holdup: the present choice is 2.5 times cheaper than K 1.5", page)
 
     def test_nothing_to_draw_is_one_clear_line(self):
