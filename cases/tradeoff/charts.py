@@ -9,7 +9,7 @@ LOOKS = [("#0072B2", 5, 4), ("#D55E00", 9, 8), ("#009E73", 13, 12), ("#CC79A7", 
          ("#E69F00", 15, 14), ("#56B4E9", 7, 6), ("#777777", 5, 4)]
 WIDTH, COLUMNS = 1080, 3
 PANEL, KEY = (WIDTH / COLUMNS, 330), 52  # pixels
-LEFT, RIGHT, ABOVE, BELOW = 62, 22, 30, 46  # margins in a panel
+LEFT, RIGHT, ABOVE, BELOW = 66, 22, 30, 46  # margins in a panel
 GREY = "#888888"
 PRESENT = "present choice"
 
@@ -149,7 +149,7 @@ def draw(products, subjects, name):
         for n, product in enumerate(products):
             product = dict(product, sheet=(WIDTH, height), corner=(n % COLUMNS * PANEL[0], n // COLUMNS * PANEL[1]))
             script += ["unset arrow; unset label; unset key",
-                       "set xlabel 'cost [core-s per simulated s]' offset 0,.4", "set ylabel 'relative error [%]' offset .8,0"]
+                       "set xlabel 'cost [core-s per simulated s]' offset 0,.4", "set ylabel 'relative error [%]' offset 0.2,0"]
             script += panel(f"{form}{n}", product, look)
         marks = [f"NaN w p pt {full} ps .9 lc rgb '{c}' t {quoted(s)}" for s, (c, full, _) in look.items() if s != PRESENT]
         marks += [f"NaN w p pt 6 ps 1.7 lw 1.4 lc rgb '#000000' t '{PRESENT}'",
