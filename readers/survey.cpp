@@ -110,6 +110,7 @@ class RowSurvey {
                                    (box.max[2] - box.min[2]));
     found_->read.push_back(sums);
     if (has(Columns::id)) find_doubled_ids(column(Columns::id), i, marks_, here);
+    find_no_types(column(Columns::type), column(Columns::id), i, here);
     flaws_.merge(here);
     if (look_for_overlaps && has(Columns::radius)) add_overlaps(i);
   }
@@ -191,8 +192,8 @@ class RowSurvey {
 
   SpeciesSurvey* add_type(std::size_t row) {
     const double type = value(Columns::type, row);
-    if (!(std::abs(type) < 1e9)) return nullptr;
-    auto& species = found_->types[static_cast<std::int64_t>(type)];
+    if (!has(Columns::type)) return nullptr;
+    auto& species = found_->types[whole_type(type)];
     ++species.particles;
     if (has(Columns::density)) species.density.add(column(Columns::density)[row]);
     if (has(Columns::mass)) species.mass.add(column(Columns::mass)[row]);

@@ -58,6 +58,24 @@ TEST(Survey, ParticlesThatAreNotFiniteOrHaveNoSizeAreNamedAndKeptOutOfTheRanges)
   EXPECT_NE(found.problems[2].find("line 14 (id 1)"), std::string::npos) << found.problems[2];
 }
 
+TEST(Survey, TypesThatAreNoWholeNumberAreTypeZeroAndNamed) {
+  const TemporaryFolder folder;
+  const auto path = folder.write(
+      "dump1", dump_header(1, 5, "id type x y z radius") +
+                   "1 2 0 0 0 1 \n2 nan 0 0 0 1 \n3 1.5 0 0 0 1 \n4 1e12 0 0 0 1 \n5 -1 0 0 0 1 \n");
+  const auto found = survey(Series::open(path), true);
+  std::map<std::int64_t, std::int64_t> particles;
+  for (const auto& [type, species] : found.types) particles[type] = species.particles;
+  EXPECT_EQ(particles, (std::map<std::int64_t, std::int64_t>{{-1, 1}, {0, 3}, {2, 1}}));
+  ASSERT_EQ(found.problems.size(), 1U);
+  EXPECT_NE(found.problems[0].find("3 particles in 1 snapshots have a type that is no whole "
+                                   "number, counted as type 0; first: "),
+            std::string::npos);
+  EXPECT_NE(found.problems[0].find("line 11 (id 2), line 12 (id 3), line 13 (id 4)"),
+            std::string::npos)
+      << found.problems[0];
+}
+
 TEST(Survey, EveryColumnHasItsRangeMeanZerosAndFlaws) {
   const TemporaryFolder folder;
   const auto path =
