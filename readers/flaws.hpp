@@ -13,8 +13,8 @@
 
 namespace bedscope::readers {
 
-/// The type that a number of a dump stands for: the number where it is a whole one below 10^9, 0 for
-/// all others.
+/// The type that a number of a dump stands for: the number where it is a whole one below 10^9, 0
+/// for all others.
 inline int whole_type(double value) {
   return std::abs(value) < 1e9 && value == std::trunc(value) ? static_cast<int>(value) : 0;
 }

@@ -61,8 +61,9 @@ TEST(Survey, ParticlesThatAreNotFiniteOrHaveNoSizeAreNamedAndKeptOutOfTheRanges)
 TEST(Survey, TypesThatAreNoWholeNumberAreTypeZeroAndNamed) {
   const TemporaryFolder folder;
   const auto path = folder.write(
-      "dump1", dump_header(1, 5, "id type x y z radius") +
-                   "1 2 0 0 0 1 \n2 nan 0 0 0 1 \n3 1.5 0 0 0 1 \n4 1e12 0 0 0 1 \n5 -1 0 0 0 1 \n");
+      "dump1",
+      dump_header(1, 5, "id type x y z radius") +
+          "1 2 0 0 0 1 \n2 nan 0 0 0 1 \n3 1.5 0 0 0 1 \n4 1e12 0 0 0 1 \n5 -1 0 0 0 1 \n");
   const auto found = survey(Series::open(path), true);
   std::map<std::int64_t, std::int64_t> particles;
   for (const auto& [type, species] : found.types) particles[type] = species.particles;
