@@ -5,6 +5,7 @@
 #include <array>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <map>
 
 #include "readers/error.hpp"
@@ -33,6 +34,7 @@ constexpr std::array spellings{
     Spelling{"radius", "r"},
     Spelling{"type", "type"},
     Spelling{"type", "speciesType"},
+    Spelling{"type", "typeId"},
     Spelling{"density", "density"},
     Spelling{"density", "rho"},
     Spelling{"vx", "vx"},
@@ -104,7 +106,9 @@ ColumnPlan::Output find_column(std::span<const std::string> names, const std::st
     if (spelling.field_name != wanted) continue;
     output.raw[0] = find(names, spelling.on_disk);
     output.factor = spelling.factor;
-    if (output.raw[0] >= 0) return output;
+    if (output.raw[0] < 0) continue;
+    if (wanted == "radius") output.parcels = find(names, parcel_column);
+    return output;
   }
   output.factor = 1;
   output.raw[0] = find(names, wanted);
@@ -136,6 +140,7 @@ ColumnPlan plan_columns(std::span<const std::string> names, const Request& reque
     plan.outputs.push_back(output);
     for (const int column : output.raw)
       if (column >= 0) plan.parse.push_back(column);
+    if (output.parcels >= 0) plan.parse.push_back(output.parcels);
   }
   std::vector<std::array<int, 2>> doubled;
   for (const int column : std::vector<int>(plan.parse))
@@ -153,8 +158,10 @@ ColumnPlan plan_columns(std::span<const std::string> names, const Request& reque
     return static_cast<int>(std::lower_bound(plan.parse.begin(), plan.parse.end(), column) -
                             plan.parse.begin());
   };
-  for (auto& output : plan.outputs)
+  for (auto& output : plan.outputs) {
     for (auto& raw : output.raw) raw = position(raw);
+    output.parcels = position(output.parcels);
+  }
   for (const auto& pair : doubled) plan.twins.push_back({position(pair[0]), position(pair[1])});
   return plan;
 }
@@ -172,7 +179,7 @@ void finish_columns(const ColumnPlan& plan, std::vector<std::vector<double>>& ra
                     const std::string& where) {
   std::vector<int> uses(raw.size(), 0);
   for (const auto& output : plan.outputs)
-    for (const int column : output.raw)
+    for (const int column : {output.raw[0], output.raw[1], output.raw[2], output.parcels})
       if (column >= 0) ++uses[static_cast<std::size_t>(column)];
 
   out.columns.resize(plan.outputs.size());
@@ -198,6 +205,11 @@ void finish_columns(const ColumnPlan& plan, std::vector<std::vector<double>>& ra
         column = first;
       if (output.factor != 1)
         for (auto& value : column) value *= output.factor;
+      if (output.parcels >= 0) {
+        const auto& particles = raw[static_cast<std::size_t>(output.parcels)];
+        for (std::size_t row = 0; row < column.size(); ++row)
+          if (particles[row] != 1) column[row] *= std::cbrt(particles[row]);
+      }
       continue;
     }
     if (!box.known) throw FormatError("{}: scaled coordinates need the box, found none", where);

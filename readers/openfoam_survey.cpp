@@ -89,9 +89,12 @@ class Surveyor {
       found_.problems.push_back(std::move(problem));
     tell_lost_columns(time, cloud.columns, columns, name);
     if (columns.size() >= cloud.columns.size()) cloud.columns = columns;
-    for (std::size_t k = 0; k < 5; ++k)
-      for (const double value : snapshot_.columns[k])
-        (k < 3 ? cloud.centres[k] : k == 3 ? cloud.radius : cloud.particles).add(value);
+    const auto& particles = snapshot_.columns[4];
+    for (std::size_t k = 0; k < 3; ++k)
+      for (const double value : snapshot_.columns[k]) cloud.centres[k].add(value);
+    for (std::size_t p = 0; p < snapshot_.columns[3].size(); ++p)  // of one particle of the parcel
+      cloud.radius.add(snapshot_.columns[3][p] / (particles.empty() ? 1 : std::cbrt(particles[p])));
+    for (const double value : particles) cloud.particles.add(value);
   }
 
   // What a time before had and this one, with parcels, has not.
