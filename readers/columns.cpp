@@ -21,9 +21,9 @@ struct Spelling {
 };
 
 // Sources: LIGGGHTS dump.html; `dump atom/vtk` (radii, velocity_lin); LPP (all vectors without
-// index); MFiX .vtp (Diameter, Velocity); foamToVTK of clouds (d, U; of CFDEMcoupling's: r);
-// MercuryDPM's ParticleVtkWriter (Radius, Velocity, speciesType); Yade's VTKRecorder (radii,
-// linVelVec).
+// index); MFiX .vtp (Diameter, Velocity, Density, Mass, Particle_ID, Particle_Phase_ID); foamToVTK
+// of clouds (d, U; of CFDEMcoupling's: r); MercuryDPM's ParticleVtkWriter (Radius, Velocity,
+// speciesType); Yade's VTKRecorder (radii, linVelVec).
 constexpr std::array spellings{
     Spelling{"radius", "radius"},
     Spelling{"radius", "radii"},
@@ -35,8 +35,14 @@ constexpr std::array spellings{
     Spelling{"type", "type"},
     Spelling{"type", "speciesType"},
     Spelling{"type", "typeId"},
+    Spelling{"type", "Particle_Phase_ID"},
+    Spelling{"id", "id"},
+    Spelling{"id", "Particle_ID"},
+    Spelling{"mass", "mass"},
+    Spelling{"mass", "Mass"},
     Spelling{"density", "density"},
     Spelling{"density", "rho"},
+    Spelling{"density", "Density"},
     Spelling{"vx", "vx"},
     Spelling{"vx", "velocity_lin[1]"},
     Spelling{"vx", "velocity[1]"},

@@ -128,6 +128,18 @@ TEST(Survey, MassesVolumesAndSpeedsAreThoseOfTheRows) {
   EXPECT_EQ(found.counts, (std::vector<std::int64_t>{2, 1}));
 }
 
+TEST(Survey, HoldupIsThatOfATiltedBoxNotOfTheOneAroundIt) {
+  const TemporaryFolder folder;
+  // Sides 2, 3 and 4, tilted by xy = -0.5, xz = 1, yz = 0.5: 24 m3 in a box of 3.5 x 3.5 x 4.
+  const auto path =
+      folder.write("dump1",
+                   "ITEM: TIMESTEP\n1\nITEM: NUMBER OF ATOMS\n1\n"
+                   "ITEM: BOX BOUNDS xy xz yz pp pp ff\n-0.5 3 -0.5\n0 3.5 1\n0 4 0.5\n"
+                   "ITEM: ATOMS id x y z radius \n1 1 1 1 0.5 \n");
+  const auto found = survey(Series::open(path), true);
+  EXPECT_NEAR(found.read.at(0).holdup, std::numbers::pi / 6 / 24, 1e-15);
+}
+
 TEST(Survey, OfBodiesTheMassIsNotSummed) {
   const TemporaryFolder folder;
   const auto path = folder.write(
