@@ -251,6 +251,19 @@ TEST(CloudForm, SurveyReadsEveryFileAndTellsOneThatIsMissing) {
   EXPECT_NE(error_of(look).find("origId"), std::string::npos);
 }
 
+TEST(CaseSurvey, ValuesThatNoFlowHasAreDoubted) {
+  const Folder folder;
+  folder.copy(data / "ascii");
+  const auto look = [&] { return survey(OpenFoamCase::open(folder.path()), true).problems; };
+  EXPECT_TRUE(look().empty());
+  folder.write("0.003/p", header("volScalarField") +
+                              "dimensions [0 2 -2 0 0 0 0]; internalField uniform -3e150;\n"
+                              "boundaryField {}\n");
+  const auto problems = look();
+  ASSERT_EQ(problems.size(), 1U);
+  EXPECT_NE(problems[0].find("p: values up to 3e+150 are implausible"), std::string::npos);
+}
+
 TEST(CloudForm, CaseWithoutACloudSaysSo) {
   const auto error = error_of([] { Series::open((data / "ascii").string()); });
   EXPECT_NE(error.find("an OpenFOAM case without a Lagrangian cloud"), std::string::npos) << error;
