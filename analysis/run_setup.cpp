@@ -86,8 +86,13 @@ void set_domain(const readers::Series& series, FirstRows& first, RunSetup& setup
     setup.domain_assumed = true;
     min = box.min;
     max = box.max;
-    if (!settings.periodic) periodic = box.periodic;
+    const bool tilted = box.tilt != std::array<double, 3>{};  // min and max are then around it
+    if (!settings.periodic && !tilted) periodic = box.periodic;
     setup.problems.emplace_back("domain assumed: the box of the first dump");
+    if (tilted)
+      setup.problems.emplace_back(
+          "the box of the first dump is tilted: the domain is the one around it, holdups count the "
+          "room between the two, and periodic sides are not wrapped");
   } else {
     setup.domain_assumed = true;
     const double r = mean_radius(setup, first);

@@ -168,7 +168,7 @@ class Mapper {
   }
   int type_of(std::size_t row) const {
     const auto& types = columns_[column_type];
-    return types.empty() || !(std::abs(types[row]) < 1e9) ? 0 : static_cast<int>(types[row]);
+    return types.empty() ? 0 : readers::whole_type(types[row]);
   }
   double id(std::size_t row) const {
     return columns_[column_id].empty() ? readers::unknown : columns_[column_id][row];
@@ -335,6 +335,7 @@ void sum_snapshot(const RunSetup& setup, std::size_t i, SnapshotProduct& out,
   mapper.temperatures();
   const auto& ids = scratch.snapshot.columns[column_id];
   if (!ids.empty()) readers::find_doubled_ids(ids, i, scratch.marks, out.flaws);
+  readers::find_no_types(scratch.snapshot.columns[column_type], ids, i, out.flaws);
   reduce(setup, out, scratch);
   out.sensitivity = {};
   if (wanted.clusters) {

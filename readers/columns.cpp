@@ -5,6 +5,7 @@
 #include <array>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <map>
 
 #include "readers/error.hpp"
@@ -20,9 +21,9 @@ struct Spelling {
 };
 
 // Sources: LIGGGHTS dump.html; `dump atom/vtk` (radii, velocity_lin); LPP (all vectors without
-// index); MFiX .vtp (Diameter, Velocity); foamToVTK of clouds (d, U; of CFDEMcoupling's: r);
-// MercuryDPM's ParticleVtkWriter (Radius, Velocity, speciesType); Yade's VTKRecorder (radii,
-// linVelVec).
+// index); MFiX .vtp (Diameter, Velocity, Density, Mass, Particle_ID, Particle_Phase_ID); foamToVTK
+// of clouds (d, U; of CFDEMcoupling's: r); MercuryDPM's ParticleVtkWriter (Radius, Velocity,
+// speciesType); Yade's VTKRecorder (radii, linVelVec).
 constexpr std::array spellings{
     Spelling{"radius", "radius"},
     Spelling{"radius", "radii"},
@@ -33,8 +34,15 @@ constexpr std::array spellings{
     Spelling{"radius", "r"},
     Spelling{"type", "type"},
     Spelling{"type", "speciesType"},
+    Spelling{"type", "typeId"},
+    Spelling{"type", "Particle_Phase_ID"},
+    Spelling{"id", "id"},
+    Spelling{"id", "Particle_ID"},
+    Spelling{"mass", "mass"},
+    Spelling{"mass", "Mass"},
     Spelling{"density", "density"},
     Spelling{"density", "rho"},
+    Spelling{"density", "Density"},
     Spelling{"vx", "vx"},
     Spelling{"vx", "velocity_lin[1]"},
     Spelling{"vx", "velocity[1]"},
@@ -104,7 +112,9 @@ ColumnPlan::Output find_column(std::span<const std::string> names, const std::st
     if (spelling.field_name != wanted) continue;
     output.raw[0] = find(names, spelling.on_disk);
     output.factor = spelling.factor;
-    if (output.raw[0] >= 0) return output;
+    if (output.raw[0] < 0) continue;
+    if (wanted == "radius") output.parcels = find(names, parcel_column);
+    return output;
   }
   output.factor = 1;
   output.raw[0] = find(names, wanted);
@@ -136,6 +146,7 @@ ColumnPlan plan_columns(std::span<const std::string> names, const Request& reque
     plan.outputs.push_back(output);
     for (const int column : output.raw)
       if (column >= 0) plan.parse.push_back(column);
+    if (output.parcels >= 0) plan.parse.push_back(output.parcels);
   }
   std::vector<std::array<int, 2>> doubled;
   for (const int column : std::vector<int>(plan.parse))
@@ -153,8 +164,10 @@ ColumnPlan plan_columns(std::span<const std::string> names, const Request& reque
     return static_cast<int>(std::lower_bound(plan.parse.begin(), plan.parse.end(), column) -
                             plan.parse.begin());
   };
-  for (auto& output : plan.outputs)
+  for (auto& output : plan.outputs) {
     for (auto& raw : output.raw) raw = position(raw);
+    output.parcels = position(output.parcels);
+  }
   for (const auto& pair : doubled) plan.twins.push_back({position(pair[0]), position(pair[1])});
   return plan;
 }
@@ -172,7 +185,7 @@ void finish_columns(const ColumnPlan& plan, std::vector<std::vector<double>>& ra
                     const std::string& where) {
   std::vector<int> uses(raw.size(), 0);
   for (const auto& output : plan.outputs)
-    for (const int column : output.raw)
+    for (const int column : {output.raw[0], output.raw[1], output.raw[2], output.parcels})
       if (column >= 0) ++uses[static_cast<std::size_t>(column)];
 
   out.columns.resize(plan.outputs.size());
@@ -198,6 +211,11 @@ void finish_columns(const ColumnPlan& plan, std::vector<std::vector<double>>& ra
         column = first;
       if (output.factor != 1)
         for (auto& value : column) value *= output.factor;
+      if (output.parcels >= 0) {
+        const auto& particles = raw[static_cast<std::size_t>(output.parcels)];
+        for (std::size_t row = 0; row < column.size(); ++row)
+          if (particles[row] != 1) column[row] *= std::cbrt(particles[row]);
+      }
       continue;
     }
     if (!box.known) throw FormatError("{}: scaled coordinates need the box, found none", where);

@@ -19,11 +19,16 @@ struct ColumnPlan {
     std::array<int, 3> raw{-1, -1, -1};  ///< positions in `parse`; several for triclinic scaling
     double factor = 1;                   ///< diameter to radius
     int scaled_axis = -1;                ///< 0..2: a box fraction along this axis, else -1
+    int parcels = -1;  ///< position in `parse` of how many particles a row stands for, else -1
   };
   std::vector<Output> outputs;  ///< one a requested column; raw[0] < 0: absent
   /// Positions in `parse` of columns that carry one name: they must agree (`type type` is usual).
   std::vector<std::array<int, 2>> twins;
 };
+
+/// What a row of a parcel stands for (OpenFOAM). Its radius is that of one sphere of the volume of
+/// so many particles.
+inline constexpr std::string_view parcel_column = "nParticle";
 
 /// Finds the columns asked for among `names` (doubled names: the last is taken, and
 /// both are parsed so that the reader can compare them).

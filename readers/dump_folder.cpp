@@ -207,6 +207,7 @@ void take_indices(Sorted& sorted, Groups& groups, DumpFolder& found) {
   for (auto& index : choose_indices(std::move(sorted.indices), found)) {
     taken.insert(index.content.named.begin(), index.content.named.end());
     for (auto& note : index.content.notes) found.notes.push_back(std::move(note));
+    if (!index.content.cut.empty()) found.problems.push_back(std::move(index.content.cut));
     if (index.content.error.empty()) {
       add_units(index, groups, sorted.strangers);
       continue;

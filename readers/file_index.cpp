@@ -25,14 +25,14 @@ constexpr std::size_t most_names = 1'000'000;  // blocks of blocks of blocks ask
 /// Follows the names from index to index.
 class Resolver {
  public:
-  explicit Resolver(std::vector<std::string>& named) : named_(named) {}
+  explicit Resolver(FileIndex& index) : named_(index.named), cut_(index.cut) {}
 
   std::vector<IndexedSnapshot> snapshots(const std::string& path, const IndexForm& form) {
     chain_.push_back(path);
     std::vector<IndexedSnapshot> found;
     std::string missing;  // told at the end: what else is named has to be known
     const IndexEntry* before = nullptr;
-    const auto entries = form.read(path, read_text(path, largest_index));
+    const auto entries = form.read(path, read_text(path, largest_index), cut_);
     if (entries.empty() && !form.one_snapshot) throw FormatError("{}: names no files", path);
     if (entries.empty()) found.push_back({path, unknown, {}});  // no process had particles
     for (const auto& entry : entries) {
@@ -98,6 +98,7 @@ class Resolver {
   }
 
   std::vector<std::string>& named_;
+  std::string& cut_;
   std::vector<std::string> chain_;
 };
 
@@ -128,7 +129,7 @@ const IndexForm* index_form(std::string_view head) {
 FileIndex read_index(const std::string& path, const IndexForm& form) {
   FileIndex index;
   try {
-    index.snapshots = Resolver(index.named).snapshots(path, form);
+    index.snapshots = Resolver(index).snapshots(path, form);
     if (form.may_count) drop_running_number(path, index);
   } catch (const Error& error) {
     index.error = error.what();

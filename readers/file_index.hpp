@@ -30,8 +30,9 @@ struct IndexForm {
   /// Times 0, 1, 2, ... may be a running number that a writer without times put there.
   bool may_count = false;
   bool (*matches)(std::string_view head);
-  /// `text` is the whole file. Throws FormatError, CutError.
-  std::vector<IndexEntry> (*read)(const std::string& path, std::string_view text);
+  /// `text` is the whole file. Where a list ends early its whole entries are given, and `cut`
+  /// tells. Throws FormatError, CutError.
+  std::vector<IndexEntry> (*read)(const std::string& path, std::string_view text, std::string& cut);
 };
 
 /// The form of index that begins like this; null for anything else.
@@ -57,6 +58,7 @@ struct FileIndex {
   std::vector<IndexedSnapshot> snapshots;
   std::vector<std::string> named;  ///< every path that it names, indices included
   std::vector<std::string> notes;  ///< worth knowing, nothing wrong
+  std::string cut;                 ///< where the list ends early; empty where it does not
   std::string error;               ///< why it cannot be used; empty if it can
 };
 

@@ -34,7 +34,7 @@ std::string whole_name(const std::string& path, std::string name) {
   return stem.stem().string() + name + stem.extension().string();
 }
 
-std::vector<IndexEntry> read(const std::string& path, std::string_view text) {
+std::vector<IndexEntry> read(const std::string& path, std::string_view text, std::string&) {
   const auto json = parse(path, text);
   const auto files = json.find("files");
   if (files == json.end() || !files->is_array())

@@ -42,6 +42,7 @@ void Flaws::merge(const Flaws& later) {
   not_finite.merge(later.not_finite);
   no_size.merge(later.no_size);
   doubled_id.merge(later.doubled_id);
+  no_type.merge(later.no_type);
   farthest = std::max(farthest, later.farthest);
 }
 
@@ -65,6 +66,7 @@ std::vector<std::string> Flaws::describe(const Series& series) const {
        "excluded and counted");
   tell(no_size, "have a radius of zero or less", "excluded from all that needs a size, counted");
   tell(doubled_id, "carry an id that occurs before in the snapshot", "counted as they stand");
+  tell(no_type, "have a type that is no whole number", "counted as type 0");
   if (farthest > implausible_position)
     lines.push_back(fmt::format(
         "positions up to {:.3g} m are implausible: is the byte order right (legacy VTK is "
@@ -97,6 +99,13 @@ void find_doubled_ids(std::span<const double> ids, std::size_t snapshot,
     if ((scratch[id / 64] & bit) != 0) flaws.doubled_id.add(snapshot, row, ids[row]);
     scratch[id / 64] |= bit;
   }
+}
+
+void find_no_types(std::span<const double> types, std::span<const double> ids, std::size_t snapshot,
+                   Flaws& flaws) {
+  for (std::size_t row = 0; row < types.size(); ++row)
+    if (whole_type(types[row]) != types[row])  // nan differs from all
+      flaws.no_type.add(snapshot, row, ids.empty() ? unknown : ids[row]);
 }
 
 }  // namespace bedscope::readers

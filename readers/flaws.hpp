@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Particles that must not enter a mean: not finite, or without a size. Excluded, counted and named.
+// Particles that must not enter a mean: not finite, or without a size. Excluded, counted and named;
+// and those of which something else is doubtful: named.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -10,6 +12,12 @@
 #include "readers/series.hpp"
 
 namespace bedscope::readers {
+
+/// The type that a number of a dump stands for: the number where it is a whole one below 10^9, 0
+/// for all others.
+inline int whole_type(double value) {
+  return std::abs(value) < 1e9 && value == std::trunc(value) ? static_cast<int>(value) : 0;
+}
 
 /// The flawed particles of one snapshot, or, merged, of many.
 struct Flaws {
@@ -26,6 +34,7 @@ struct Flaws {
   Kind not_finite;      ///< position, velocity or radius
   Kind no_size;         ///< radius zero or negative
   Kind doubled_id;      ///< an id that occurred before in the snapshot
+  Kind no_type;         ///< a type that is no whole number
   double farthest = 0;  ///< largest coordinate [m]
 
   void merge(const Flaws& later);
@@ -41,12 +50,16 @@ void archive(Archive& ar, Flaws::Kind& kind) {
 
 template <class Archive>
 void archive(Archive& ar, Flaws& flaws) {
-  auto& [not_finite, no_size, doubled_id, farthest] = flaws;
-  ar(not_finite, no_size, doubled_id, farthest);
+  auto& [not_finite, no_size, doubled_id, no_type, farthest] = flaws;
+  ar(not_finite, no_size, doubled_id, no_type, farthest);
 }
 
 /// Counts the ids that occur more than once. `scratch` is re-used.
 void find_doubled_ids(std::span<const double> ids, std::size_t snapshot,
                       std::vector<std::uint64_t>& scratch, Flaws& flaws);
+
+/// Names the types that are no whole numbers (whole_type). `ids`: of the same rows, or empty.
+void find_no_types(std::span<const double> types, std::span<const double> ids, std::size_t snapshot,
+                   Flaws& flaws);
 
 }  // namespace bedscope::readers

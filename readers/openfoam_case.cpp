@@ -2,6 +2,7 @@
 #include "readers/openfoam_case.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "readers/openfoam_case_impl.hpp"
@@ -40,6 +41,18 @@ void OpenFoamCase::Impl::count_ranks() {
   }
 }
 
+// Points in the wrong order of bytes, or a mesh that is folded.
+void OpenFoamCase::Impl::tell_empty_cells() {
+  const auto& volumes = start->mesh.volumes;
+  const auto bad = [](double volume) { return !(volume > 0) || std::isinf(volume); };
+  const auto first = std::find_if(volumes.begin(), volumes.end(), bad);
+  if (first == volumes.end()) return;
+  problems.push_back(fmt::format(
+      "{}: {} of {} cells have no volume, or one below zero; first: cell {}, {:.3g} m3",
+      shown("constant/" + region + "polyMesh"), std::count_if(first, volumes.end(), bad),
+      volumes.size(), first - volumes.begin(), *first));
+}
+
 OpenFoamCase OpenFoamCase::open(const std::string& path, const OpenFoamOptions& options) {
   std::error_code error;
   if (!fs::is_directory(path, error))
@@ -69,6 +82,7 @@ OpenFoamCase OpenFoamCase::open(const std::string& path, const OpenFoamOptions& 
     made->start = std::make_shared<RankedMesh>();
   else
     made->start = made->read_mesh(0);
+  made->tell_empty_cells();
   OpenFoamCase foam(made);
   if (made->times.size() == 1) return foam;  // told when the cloud is read
   if (const auto why = made->why_clouds_are_cut(foam); !why.empty()) {

@@ -75,6 +75,7 @@ struct OpenFoamCase::Impl {
 
   void find_regions();
   void count_ranks();
+  void tell_empty_cells();
   void find_times();
   void find_fields();
   std::string class_of(const std::string& field) const;

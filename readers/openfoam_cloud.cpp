@@ -21,20 +21,26 @@ struct Row {
 Point barycentric_point(const CloudMesh& mesh, const Row& row, const std::string& where) {
   const auto [cell, face, corner] = row.labels;
   if (cell < 0 || static_cast<std::size_t>(cell) >= mesh.centres.size() || face < 0 ||
-      static_cast<std::size_t>(face) >= mesh.poly.faces() || corner < 0)
-    throw FormatError("{}: expected a cell, a face and a point of the mesh, found {} {} {}", where,
-                      cell, face, corner);
-  const auto labels = mesh.poly.face(static_cast<std::size_t>(face));
+      static_cast<std::size_t>(face) >= mesh.poly.faces())
+    throw FormatError("{}: expected a cell and a face of the mesh, found {} {}", where, cell, face);
+  const auto f = static_cast<std::size_t>(face);
+  const auto labels = mesh.poly.face(f);
   const auto n = static_cast<std::int64_t>(labels.size());
-  auto third = corner % n, fourth = (third + 1) % n;
-  if (mesh.poly.owner[static_cast<std::size_t>(face)] != cell) std::swap(third, fourth);
+  const bool owns = mesh.poly.owner[f] == cell;
+  if (!owns && (f >= mesh.poly.neighbour.size() || mesh.poly.neighbour[f] != cell))
+    throw FormatError("{}: cell {} is not bounded by face {}", where, cell, face);
+  if (corner < 1 || corner > n - 2)
+    throw FormatError("{}: face {} of {} points has no triangle {}", where, face, n, corner);
+  const std::int64_t base = mesh.base.empty() ? 0 : mesh.base[f];
+  auto third = (corner + base) % n, fourth = (third + 1) % n;
+  if (!owns) std::swap(third, fourth);
   const auto point = [&](std::int64_t k) -> const Point& {
     return mesh.poly.points[static_cast<std::size_t>(labels[static_cast<std::size_t>(k)])];
   };
   const auto& centre = mesh.centres[static_cast<std::size_t>(cell)];
   Point x{};
   for (std::size_t a = 0; a < 3; ++a)
-    x[a] = row.numbers[0] * centre[a] + row.numbers[1] * point(0)[a] +
+    x[a] = row.numbers[0] * centre[a] + row.numbers[1] * point(base)[a] +
            row.numbers[2] * point(third)[a] + row.numbers[3] * point(fourth)[a];
   return x;
 }

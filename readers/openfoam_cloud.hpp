@@ -14,6 +14,8 @@ namespace bedscope::readers {
 struct CloudMesh {
   PolyMesh poly;
   std::vector<Point> centres;  ///< of its cells
+  /// The first point of the triangles of each face (tet_base_points); empty: 0 of all.
+  std::vector<std::int32_t> base;
 };
 
 struct CloudPoints {
@@ -31,9 +33,11 @@ std::size_t read_cloud_count(FoamBlocks& file);
 /// `(x y z) cell`, or `(a b c d) cell tetFace tetPt` (also in `positions`, Foundation 5 and later);
 /// in binary records of 3 scalars + 1 label, 4 scalars + 3 labels, or the 40 bytes of old versions.
 ///
-///   x = a centre(cell) + b p[0] + c p[i] + d p[i+1],  p the points of tetFace, i = tetPt,
+///   x = a centre(cell) + b p[0] + c p[i] + d p[i+1],  p the points of tetFace from its base on, i
+///   = tetPt,
 ///
-/// c and d exchanged where the cell does not own tetFace. `mesh` is asked for only if needed.
+/// c and d exchanged where the cell does not own tetFace. Throws FormatError where tetFace does not
+/// bound the cell or has no such triangle. `mesh` is asked for only if needed.
 /// Source: OpenFOAM, particle::currentTetTransform and tetIndices (v1706 and later).
 void read_cloud_points(FoamBlocks& file, const std::function<const CloudMesh&()>& mesh,
                        CloudPoints& out);

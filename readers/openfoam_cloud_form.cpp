@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A Lagrangian cloud of an OpenFOAM case as a run of particles: one snapshot for each time.
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <set>
 
@@ -112,30 +111,7 @@ bool has_name(const Located& located, std::string_view name) {
                                                  name) != located.columns->end();
 }
 
-// One parcel stands for nParticle particles; told, as numbers of particles are then of parcels.
-void tell_parcels(const std::vector<Located>& snapshots, std::vector<std::string>& problems) {
-  double least = INFINITY, most = -INFINITY;
-  Snapshot rows;
-  std::vector<const Located*> looked_at{&snapshots.front()};
-  if (snapshots.size() > 1) looked_at.push_back(&snapshots.back());
-  for (const auto* located : looked_at) {
-    if (located->particles == 0) continue;
-    const auto& open = *static_cast<const OpenCloud*>(located->context.get());
-    for (auto& problem : open.foam.read_cloud(open.time, open.cloud, {{"nParticle", false}}, rows))
-      problems.push_back(std::move(problem));
-    for (const double n : rows.columns[0]) {
-      least = std::min(least, n);
-      most = std::max(most, n);
-    }
-  }
-  if (most < least || (least == 1 && most == 1)) return;
-  problems.push_back(
-      fmt::format("one parcel stands for {:.6g} to {:.6g} particles (nParticle): it is taken as "
-                  "one sphere of their volume, and numbers are of parcels",
-                  least, most));
-}
-
-FileScan scan(const std::string& path, bool thorough) {
+FileScan scan(const std::string& path, bool) {
   const auto name = split(path);
   if (!name) throw FileError("{}: expected an OpenFOAM case, or CASE/cloud", path);
   OpenFoamOptions options;
@@ -182,32 +158,14 @@ FileScan scan(const std::string& path, bool thorough) {
     located.columns = columns;
     located.parts = parts;
   }
-  if (thorough) tell_parcels(found.snapshots, found.problems);
   return found;
 }
 
-// The request with columns behind it that ours are made of: volumes of nParticle particles each,
-// identities of both the id and the rank that gave it.
-struct Extended {
-  Request request;
-  std::ptrdiff_t radius = -1, count = -1, id = -1, rank = -1;  // positions, -1: not needed
-};
-
-Extended extend(const Located& where, const Request& request) {
-  Extended made{request, -1, -1, -1, -1};
-  const auto size = static_cast<std::ptrdiff_t>(request.size());
-  for (std::ptrdiff_t k = 0; k < size; ++k) {
-    const auto& name = request[static_cast<std::size_t>(k)].name;
-    if (name == "radius" && has_name(where, "nParticle")) made.radius = k;
-    if (name == "id" && has_name(where, "origProcId")) made.id = k;
-  }
-  const auto add = [&](const char* name) {
-    made.request.push_back({name});
-    return static_cast<std::ptrdiff_t>(made.request.size()) - 1;
-  };
-  if (made.radius >= 0) made.count = add("nParticle");
-  if (made.id >= 0) made.rank = add("origProcId");
-  return made;
+// An identity is both the id and the rank that gave it: the place of the id in the request, or -1.
+std::ptrdiff_t id_of_ranks(const Located& where, const Request& request) {
+  const auto id = std::find_if(request.begin(), request.end(),
+                               [](const ColumnRequest& item) { return item.name == "id"; });
+  return id == request.end() || !has_name(where, "origProcId") ? -1 : id - request.begin();
 }
 
 void read(const std::string&, const Located& where, const Request& request, Snapshot& out,
@@ -220,20 +178,17 @@ void read(const std::string&, const Located& where, const Request& request, Snap
   out.columns.assign(request.size(), {});
   out.bytes_read = 0;
   if (where.particles == 0) return;
-  const auto extended = extend(where, request);
-  open.foam.read_cloud(open.time, open.cloud, extended.request, out);
+  auto with_rank = request;
+  const auto id = id_of_ranks(where, request);
+  if (id >= 0) with_rank.push_back({"origProcId"});
+  open.foam.read_cloud(open.time, open.cloud, with_rank, out);
   out.box = where.box;
-  const auto column = [&](std::ptrdiff_t k) -> std::vector<double>& {
-    return out.columns[static_cast<std::size_t>(k)];
-  };
-  if (extended.radius >= 0)
-    for (std::size_t p = 0; p < column(extended.radius).size(); ++p)
-      if (const double n = column(extended.count)[p]; n != 1)
-        column(extended.radius)[p] *= std::cbrt(n);
-  if (extended.id >= 0)  // exact up to 2^21 ranks of 2^32 parcels
-    for (std::size_t p = 0; p < column(extended.id).size(); ++p)
-      column(extended.id)[p] += 4294967296.0 * column(extended.rank)[p];
-  out.columns.resize(request.size());
+  if (id < 0) return;
+  const auto& ranks = out.columns.back();
+  auto& ids = out.columns[static_cast<std::size_t>(id)];
+  for (std::size_t p = 0; p < ids.size(); ++p)
+    ids[p] += 4294967296.0 * ranks[p];  // exact up to 2^21 ranks of 2^32 parcels
+  out.columns.pop_back();
 }
 
 std::string place(const std::string&, const Located& where, std::size_t row) {

@@ -29,11 +29,12 @@ bool in_macro_name(char c) {
          c == '.' || c == ':';
 }
 
-// $name, $sub.name, $:name and $..name all look from the top of the file: scopes are few here.
+// $name, $sub.name, $:name and $..name, since 2019 $sub/name and $!sub/name, too, all look from the
+// top of the file: scopes are few here.
 const FoamDictionary::Entry* look_up(const FoamDictionary& top, std::string_view name) {
-  while (name.starts_with(':') || name.starts_with('.')) name.remove_prefix(1);
+  name.remove_prefix(std::min(name.find_first_not_of(":.!/"), name.size()));
   if (const auto* entry = top.find(name)) return entry;
-  const auto point = name.find('.');
+  const auto point = name.find_first_of("./");
   if (point == std::string_view::npos) return nullptr;
   const auto* sub = top.dictionary(name.substr(0, point));
   return sub == nullptr ? nullptr : look_up(*sub, name.substr(point + 1));
@@ -51,7 +52,10 @@ void expand_into(std::string& out, std::string_view text, const FoamDictionary& 
       if (braced)
         stop = std::min(text.find('}', i), text.size());
       else
-        while (stop < text.size() && in_macro_name(text[stop])) ++stop;
+        while (stop < text.size() &&
+               (in_macro_name(text[stop]) || (text[stop] == '!' && stop == i) ||
+                (text[stop] == '/' && stop + 1 < text.size() && in_macro_name(text[stop + 1]))))
+          ++stop;
       const auto name = braced ? text.substr(i + 1, stop - i - 1) : text.substr(i, stop - i);
       i = braced ? std::min(stop + 1, text.size()) : stop;
       const auto* entry = look_up(dictionary, name);

@@ -107,7 +107,9 @@ std::int64_t number_of(const FoamDictionary& patch, std::string_view key, const 
 
 void read_patches(FoamBlocks& file, PolyMesh& mesh) {
   const auto& path = file.stream().path();
-  if (file.stream().peek() == '\0') return;
+  if (file.stream().peek() == '\0')
+    file.stream().fail_cut("expected a list of patches, found end of file");
+  auto next = static_cast<std::int64_t>(mesh.neighbour.size());  // face that no patch has yet
   for (const auto& entry : read_named_list(file.stream()).entries) {
     if (entry.nested.empty()) continue;
     const auto& patch = entry.nested.front();
@@ -117,6 +119,12 @@ void read_patches(FoamBlocks& file, PolyMesh& mesh) {
     if (made.start > faces || made.faces > faces - made.start)
       throw FormatError("{}: patch {} ends at face {} of {}", path, made.name,
                         static_cast<double>(made.start) + static_cast<double>(made.faces), faces);
+    if (made.faces > 0 && made.start < next)
+      throw FormatError(
+          "{}: patch {} begins at face {}, expected {}: behind the faces inside and of "
+          "the patches before",
+          path, made.name, made.start, next);
+    if (made.faces > 0) next = made.start + made.faces;
     mesh.patches.push_back(std::move(made));
   }
 }

@@ -33,6 +33,7 @@ void add_columns(std::string_view file, std::string_view class_name,
       columns.push_back(
           {velocity ? fmt::format("v{}", "xyz"[k]) : fmt::format("{}[{}]", name, k + 1), name, k});
   } else if (class_name == "scalarField" || class_name == "labelField") {
+    if (name == "x" || name == "y" || name == "z") return;  // positions are those of the parcels
     columns.push_back({name, name, 0});
     for (const auto& [on_disk, ours] : other_names)
       if (on_disk == name) columns.push_back({std::string(ours), name, 0});
@@ -59,9 +60,8 @@ std::string cloud_folder(const OpenFoamCase::Impl& impl, const std::string& rela
 // CFDEM in serial names the folder of the cloud after its time: 0.05/lagrangian/0.05.
 constexpr std::string_view serial_cloud = "particleCloud";
 
-std::vector<CloudColumn> columns_of(const OpenFoamCase::Impl& impl, const std::string& relative) {
+std::vector<CloudColumn> columns_in(const std::string& folder) {
   std::vector<CloudColumn> columns{{"x", "", 0}, {"y", "", 1}, {"z", "", 2}};
-  const auto folder = cloud_folder(impl, relative);
   std::error_code error;
   std::vector<std::string> names;
   for (auto entry = fs::directory_iterator(folder, error);
@@ -77,10 +77,32 @@ std::vector<CloudColumn> columns_of(const OpenFoamCase::Impl& impl, const std::s
   return columns;
 }
 
-// Where the parcels of a folder are; empty where its ranks have none.
+// Those of the folder with the most files: a rank without parcels may have nothing but positions,
+// and what a rank with parcels lacks is an error when it is read.
+std::vector<CloudColumn> columns_of(const OpenFoamCase::Impl& impl, const std::string& relative) {
+  std::string fullest;
+  std::ptrdiff_t most = -1;
+  for (const auto& folder : impl.folders) {
+    auto path = folder.path + "/" + relative;
+    std::error_code none;  // of a rank without the folder
+    const auto files = std::distance(fs::directory_iterator(path, none), fs::directory_iterator());
+    if (files <= most) continue;
+    most = files;
+    fullest = std::move(path);
+  }
+  return columns_in(fullest);
+}
+
+// Where the parcels of a folder are; empty where its ranks have none. Fields of parcels that are
+// nowhere are an error: these would be missing without a word.
 std::string points_file(const FoamFolder& folder, const std::string& relative) {
-  const auto path = plain_or_gz(folder.path + "/" + relative + "/coordinates");
-  return path.empty() ? plain_or_gz(folder.path + "/" + relative + "/positions") : path;
+  const auto cloud = folder.path + "/" + relative;
+  for (const auto* name : {"/coordinates", "/positions"})
+    if (auto path = plain_or_gz(cloud + name); !path.empty()) return path;
+  if (const auto columns = columns_in(cloud); columns.size() > 3)
+    throw FileError("{}/coordinates: no such file (nor positions), found {}", cloud,
+                    columns.back().file);
+  return {};
 }
 
 // A field of the cloud, the values of all ranks behind one another, `components` a parcel.

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "readers/openfoam_case_impl.hpp"
+#include "readers/openfoam_tets.hpp"
 
 namespace bedscope::readers {
 namespace {
@@ -129,6 +130,10 @@ std::shared_ptr<const std::vector<CloudMesh>> OpenFoamCase::Impl::cloud_meshes(
       auto& mesh = (*made)[folder.first_rank + k];
       mesh.poly = read_poly_mesh(mesh_opener(folder, k, time));
       mesh.centres = cell_geometry(mesh.poly).centres;
+      std::unique_ptr<FoamBlocks> base;
+      if (!mesh_file(folder, time, "tetBasePtIs").empty())
+        base = mesh_opener(folder, k, time)("tetBasePtIs");
+      mesh.base = tet_base_points(mesh.poly, mesh.centres, base.get());
     }
   clouds_start = made;
   return made;

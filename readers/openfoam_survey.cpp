@@ -17,6 +17,10 @@ class Surveyor {
     found_.problems = gas.problems();
   }
 
+  // No quantity of a flow is as large in SI units; floats and doubles with their bytes in the wrong
+  // order are.
+  static constexpr double implausible = 1e30;
+
   void count_times() {
     for (std::size_t t = 0; t < gas_.times().size(); ++t) {
       for (const auto& name : gas_.times()[t].fields) ++fields_[name].times;
@@ -42,6 +46,14 @@ class Surveyor {
       if (field.non_finite > 0)
         found_.problems.push_back(fmt::format("{}; {} in all times read: left out of the ranges",
                                               first_non_finite_[name], field.non_finite));
+      for (const auto& range : field.ranges)
+        if (const double most = std::max(range.max, -range.min); most > implausible) {
+          found_.problems.push_back(fmt::format(
+              "{}: values up to {:.3g} are implausible: is the byte order right (arch), or did the "
+              "run blow up?",
+              name, most));
+          break;
+        }
       found_.fields.push_back(std::move(field));
     }
     for (auto& [name, cloud] : clouds_) {
@@ -89,9 +101,12 @@ class Surveyor {
       found_.problems.push_back(std::move(problem));
     tell_lost_columns(time, cloud.columns, columns, name);
     if (columns.size() >= cloud.columns.size()) cloud.columns = columns;
-    for (std::size_t k = 0; k < 5; ++k)
-      for (const double value : snapshot_.columns[k])
-        (k < 3 ? cloud.centres[k] : k == 3 ? cloud.radius : cloud.particles).add(value);
+    const auto& particles = snapshot_.columns[4];
+    for (std::size_t k = 0; k < 3; ++k)
+      for (const double value : snapshot_.columns[k]) cloud.centres[k].add(value);
+    for (std::size_t p = 0; p < snapshot_.columns[3].size(); ++p)  // of one particle of the parcel
+      cloud.radius.add(snapshot_.columns[3][p] / (particles.empty() ? 1 : std::cbrt(particles[p])));
+    for (const double value : particles) cloud.particles.add(value);
   }
 
   // What a time before had and this one, with parcels, has not.

@@ -12,7 +12,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Does a plain file end as OpenFOAM ends its files? Then it was not cut.
+// Does a plain file end as OpenFOAM ends its files? Then it was not cut. One that ends in NUL bytes
+// was: the file system lost its tail.
 bool has_footer(const std::string& path) {
   Source source(path);
   if (source.compressed()) return false;
@@ -21,10 +22,9 @@ bool has_footer(const std::string& path) {
   source.seek(size > look ? size - look : 0);
   std::string tail(look, '\0');
   tail.resize(source.read(tail));
+  if (tail.ends_with('\0')) throw CutError("{}: ends in NUL bytes", path);
   const auto last = tail.find_last_not_of(" \t\r\n");
-  return last != std::string::npos &&
-         (std::string_view(tail).substr(0, last + 1).ends_with("* * //") ||
-          std::string_view(tail).substr(0, last + 1).ends_with("** //"));
+  return last != std::string::npos && std::string_view(tail).substr(0, last + 1).ends_with("** //");
 }
 
 std::string file_name(const std::string& path) { return fs::path(path).filename().string(); }
@@ -170,12 +170,17 @@ std::string OpenFoamCase::Impl::why_clouds_are_cut(const OpenFoamCase& foam) con
       for (const auto& column : before)
         if (std::count(here.begin(), here.end(), column) == 0)
           return fmt::format("{}: {} is missing", shown(cloud_path(last, cloud)), column);
+      std::set<std::string> all_names;
       const auto sound = [&](const FoamFolder& folder) {
         std::error_code error;
+        std::set<std::string> names;
         auto entry = fs::directory_iterator(folder.path + "/" + cloud_path(last, cloud), error);
-        for (; !error && entry != fs::directory_iterator(); entry.increment(error))
+        for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
           if (folder.collated || !has_footer(entry->path().string())) return false;
-        return true;
+          names.insert(file_name(entry->path().string()));
+        }
+        if (all_names.empty()) all_names = names;
+        return names == all_names;  // a rank that lacks one has no parcels, or was cut
       };
       if (std::all_of(folders.begin(), folders.end(), sound)) continue;
       Request all;

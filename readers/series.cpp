@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <map>
 
+#include "readers/columns.hpp"
 #include "readers/error.hpp"
 #include "readers/source.hpp"
 
@@ -47,6 +48,27 @@ const Form* form_of_folder(const std::string& folder) {
   return nullptr;
 }
 
+/// Where rows are parcels numbers are of parcels; told by the first snapshot and the last.
+void tell_parcels(const Series& series, std::vector<std::string>& problems) {
+  const auto& names = series.parts();
+  if (std::find(names.begin(), names.end(), parcel_column) == names.end()) return;
+  double least = INFINITY, most = -INFINITY;
+  Snapshot rows;
+  Scratch scratch;
+  for (const std::size_t i : {std::size_t{0}, series.size() - 1}) {
+    series.read(i, {{std::string(parcel_column), false}}, rows, scratch);
+    for (const double n : rows.columns[0]) {
+      least = std::min(least, n);
+      most = std::max(most, n);
+    }
+  }
+  if (most < least || (least == 1 && most == 1)) return;
+  problems.push_back(fmt::format(
+      "{}: one parcel stands for {:.6g} to {:.6g} particles (nParticle): it is taken as one sphere "
+      "of their volume, and numbers are of parcels",
+      series.path(0), least, most));
+}
+
 FileScan scan_file(const Form& form, const std::string& path, bool thorough, DumpIndex* index) {
   return index != nullptr ? index->scan(form, path, thorough) : form.scan(path, thorough);
 }
@@ -77,6 +99,7 @@ Series Series::open(const std::string& where, const SeriesOptions& options) {
   const auto& first = series.located(0);
   if (first.columns != nullptr) series.columns_ = *first.columns;
   if (first.parts != nullptr) series.parts_ = *first.parts;
+  tell_parcels(series, series.problems_);
   for (auto* lines : {&series.problems_, &series.notes_, &series.left_out_})
     for (auto& line : *lines) line = one_line(line);
   return series;
@@ -188,6 +211,9 @@ void Series::join(const DumpUnit& unit, std::vector<FileScan> scans) {
       where.particles -= where.ghosts;
       where.without_ghosts = true;
     }
+    // A part without particles may have no columns either: behind the others, and not read.
+    std::stable_partition(parts.begin(), parts.end(),
+                          [](const Part& part) { return part.where.particles > 0; });
     const auto& first = parts.front().where;
     Entry entry;
     entry.step_inside = first.step != no_step;
@@ -299,17 +325,16 @@ void Series::read(std::size_t i, const Request& request, Snapshot& out, Scratch&
   out.time = entry.time;
 }
 
-/// The parts behind the first. A part without particles has no columns either.
+/// The parts behind the first that have particles.
 void Series::read_more(const Entry& entry, const Request& request, Snapshot& out,
                        Scratch& scratch) const {
   Snapshot part;
-  for (std::size_t k = 1; k < entry.parts.size(); ++k) {
+  for (std::size_t k = 1; k < entry.parts.size() && entry.parts[k].where.particles > 0; ++k) {
     form_->read(files_[entry.parts[k].file], entry.parts[k].where, request, part, scratch);
     out.bytes_read += part.bytes_read;
-    if (part.particles == 0) continue;
     for (std::size_t c = 0; c < request.size(); ++c) {
       auto& to = out.columns[c];
-      if (out.particles > 0 && to.empty() != part.columns[c].empty())
+      if (to.empty() != part.columns[c].empty())
         throw FormatError("{}: column {} is only in some of the pieces",
                           files_[entry.parts[k].file], request[c].name);
       to.insert(to.end(), part.columns[c].begin(), part.columns[c].end());

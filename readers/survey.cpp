@@ -83,6 +83,14 @@ void survey_headers(const Series& series, Survey& found) {
       contains(parts, "shapex") || contains(parts, "blockiness1") || contains(parts, "shapex[0]");
 }
 
+/// Of a tilted box the volume of the one around it, less what the tilt takes of its sides.
+double volume_of(const Box& box) {
+  const auto [xy, xz, yz] = box.tilt;
+  const double tilt_x = std::max({0., xy, xz, xy + xz}) - std::min({0., xy, xz, xy + xz});
+  return (box.max[0] - box.min[0] - tilt_x) * (box.max[1] - box.min[1] - std::abs(yz)) *
+         (box.max[2] - box.min[2]);
+}
+
 /// Takes the rows of one snapshot after the other.
 class RowSurvey {
  public:
@@ -105,11 +113,10 @@ class RowSurvey {
     if (has(Columns::radius) && (has(Columns::density) || mass_counts())) sums.mass = 0;
     for (std::size_t row = 0; row < snapshot_.particles; ++row) add_row(i, row, sums, here);
     const auto& box = snapshot_.box;
-    if (box.known && !box.shrink_wrapped)
-      sums.holdup = sums.volume / ((box.max[0] - box.min[0]) * (box.max[1] - box.min[1]) *
-                                   (box.max[2] - box.min[2]));
+    if (box.known && !box.shrink_wrapped) sums.holdup = sums.volume / volume_of(box);
     found_->read.push_back(sums);
     if (has(Columns::id)) find_doubled_ids(column(Columns::id), i, marks_, here);
+    find_no_types(column(Columns::type), column(Columns::id), i, here);
     flaws_.merge(here);
     if (look_for_overlaps && has(Columns::radius)) add_overlaps(i);
   }
@@ -191,8 +198,8 @@ class RowSurvey {
 
   SpeciesSurvey* add_type(std::size_t row) {
     const double type = value(Columns::type, row);
-    if (!(std::abs(type) < 1e9)) return nullptr;
-    auto& species = found_->types[static_cast<std::int64_t>(type)];
+    if (!has(Columns::type)) return nullptr;
+    auto& species = found_->types[whole_type(type)];
     ++species.particles;
     if (has(Columns::density)) species.density.add(column(Columns::density)[row]);
     if (has(Columns::mass)) species.mass.add(column(Columns::mass)[row]);

@@ -96,6 +96,7 @@ std::vector<VtkGasTime> by_list(const std::string& folder, const Offer& offer,
   if (lists.size() > 1)
     throw InputError("{}: several lists of times, name one of {}", folder, fmt::join(lists, ", "));
   for (auto& note : used.notes) problems.push_back(note);
+  if (!used.cut.empty()) problems.push_back(used.cut);
   const std::set<std::string> named(used.named.begin(), used.named.end());
   const auto& files = offer.indices.empty() ? offer.legacy : offer.indices;
   const auto more = std::count_if(files.begin(), files.end(), [&](const auto& file) {
@@ -130,6 +131,7 @@ std::vector<VtkGasTime> vtk_gas_files(const std::string& path, std::vector<std::
   if (fs::is_directory(path, error)) return of_folder(path, problems);
   auto index = index_at(path);
   for (auto& note : index.notes) problems.push_back(note);
+  if (!index.cut.empty()) problems.push_back(index.cut);
   auto times = times_of(index);
   if (times.empty() && holds_grid(path)) times.push_back({unknown, {path}});
   if (times.empty())

@@ -25,14 +25,25 @@ double number(const XmlReader& xml, std::string_view text, std::string_view what
   return value;
 }
 
-/// Collects the elements `element` of a file with the name that `attribute` holds.
+/// Collects the elements `element` of a file with the name that `attribute` holds. A list that ends
+/// early is one of what it holds where `cut` takes the reason.
 std::vector<IndexEntry> entries_of(const std::string& path, std::string_view text,
-                                   std::string_view element, std::string_view attribute) {
+                                   std::string_view element, std::string_view attribute,
+                                   std::string* cut = nullptr) {
   XmlReader xml(text, path);
   std::vector<IndexEntry> entries;
+  const auto next = [&] {
+    try {
+      return xml.next();
+    } catch (const CutError& error) {
+      if (cut == nullptr || entries.empty()) throw;
+      *cut = error.what();
+      return Event::end;
+    }
+  };
   double time = unknown;
   bool in_time = false, single = false;
-  for (auto event = xml.next(); event != Event::end; event = xml.next()) {
+  for (auto event = next(); event != Event::end; event = next()) {
     if (event == Event::close) in_time = false;
     if (event == Event::text && in_time) time = number(xml, trimmed(xml.text()), "a time");
     if (event == Event::text && in_time && single) time = as_written(static_cast<float>(time));
@@ -70,24 +81,24 @@ constinit const IndexForm vtk_parallel{
           const auto type = xml_root_type(head);
           return type == "PPolyData" || type == "PUnstructuredGrid";
         },
-    .read = [](const std::string& path,
-               std::string_view text) { return entries_of(path, text, "Piece", "Source"); },
+    .read = [](const std::string& path, std::string_view text,
+               std::string&) { return entries_of(path, text, "Piece", "Source"); },
 };
 
 constinit const IndexForm vtk_multiblock{
     .name = "block",
     .one_snapshot = true,
     .matches = [](std::string_view head) { return xml_root_type(head) == "vtkMultiBlockDataSet"; },
-    .read = [](const std::string& path,
-               std::string_view text) { return entries_of(path, text, "DataSet", "file"); },
+    .read = [](const std::string& path, std::string_view text,
+               std::string&) { return entries_of(path, text, "DataSet", "file"); },
 };
 
 constinit const IndexForm vtk_collection{
     .name = "file",
     .may_count = true,
     .matches = [](std::string_view head) { return xml_root_type(head) == "Collection"; },
-    .read = [](const std::string& path,
-               std::string_view text) { return entries_of(path, text, "DataSet", "file"); },
+    .read = [](const std::string& path, std::string_view text,
+               std::string& cut) { return entries_of(path, text, "DataSet", "file", &cut); },
 };
 
 }  // namespace bedscope::readers

@@ -31,8 +31,11 @@ class LegacyData {
   LegacyData(const std::string& path, std::vector<char>& buffer, std::size_t piece)
       : path_(path), source_(path), window_(source_, buffer, piece) {}
 
+  /// A line without its end, the last of the file, may be cut: so is then the file.
   template <class... T>
   [[noreturn]] void fail(fmt::format_string<T...> text, T&&... values) {
+    if (!window_.closed())
+      throw CutError("{}: {}: {}", path_, here(), fmt::format(text, std::forward<T>(values)...));
     throw FormatError("{}: {}: {}", path_, here(), fmt::format(text, std::forward<T>(values)...));
   }
 
@@ -62,8 +65,11 @@ class LegacyData {
 
   /// The next line that is not blank.
   std::optional<std::string_view> keyword_line() {
-    while (auto line = next_line())
+    while (auto line = next_line()) {
+      if (!line->empty() && line->find_first_not_of('\0') == line->npos)
+        fail_cut("NUL bytes behind the data (file system lost the tail?)");
       if (line->find_first_not_of(" \t") != line->npos) return line;
+    }
     return std::nullopt;
   }
 

@@ -48,6 +48,12 @@ inline std::string lower_case(std::string_view text) {
   return lower;
 }
 
+inline std::string upper_case(std::string_view text) {
+  std::string upper(text);
+  for (auto& c : upper) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return upper;
+}
+
 /// "name%20with%20space": VTK encodes what would break the line of a name.
 inline std::string decode_name(std::string_view encoded) {
   std::string name;

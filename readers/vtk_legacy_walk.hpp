@@ -128,10 +128,10 @@ class LegacyWalk : private LegacyData {
     binary_ = encoding == "binary";
     const auto dataset = keyword_line();
     rest = dataset ? *dataset : std::string_view{};
-    if (next_word(rest) != "DATASET")
+    if (upper_case(next_word(rest)) != "DATASET")
       fail("expected DATASET, found {}",
            dataset ? fmt::format("\"{}\"", dataset->substr(0, 40)) : "end of file");
-    dataset_ = next_word(rest);
+    dataset_ = upper_case(next_word(rest));
     if (dataset_ == "RECTILINEAR_GRID" || dataset_ == "STRUCTURED_POINTS" ||
         dataset_ == "STRUCTURED_GRID" || dataset_ == "FIELD") {
       other_dataset_ = true;
@@ -147,7 +147,7 @@ class LegacyWalk : private LegacyData {
 
   void section(std::string_view line) {
     std::string_view rest = line;
-    const auto keyword = next_word(rest);
+    const auto keyword = upper_case(next_word(rest));  // VTK takes any case
     if (keyword == "POINTS") {
       if (points_ >= 0) fail("POINTS twice");
       points_ = count(next_word(rest), "POINTS");
@@ -162,7 +162,7 @@ class LegacyWalk : private LegacyData {
       data(type, points_, 3, "POINTS");
     } else if (keyword == "VERTICES" || keyword == "LINES" || keyword == "POLYGONS" ||
                keyword == "TRIANGLE_STRIPS" || keyword == "CELLS") {
-      cells(std::string(keyword), rest);
+      cells(keyword, rest);
     } else if (keyword == "CELL_TYPES") {
       cell_types(count(next_word(rest), "CELL_TYPES"));
     } else if (keyword == "POINT_DATA" || keyword == "CELL_DATA") {
@@ -181,7 +181,7 @@ class LegacyWalk : private LegacyData {
       const auto components = next_word(rest);
       const auto number = components.empty() ? 1 : count(components, "SCALARS");
       const auto table = keyword_line();
-      if (!table || !table->starts_with("LOOKUP_TABLE"))
+      if (!table || !upper_case(*table).starts_with("LOOKUP_TABLE"))
         fail("expected LOOKUP_TABLE after SCALARS {}", name);
       array(name, type, tuples_, number);
     } else if (keyword == "VECTORS" || keyword == "NORMALS" || keyword == "TENSORS" ||
@@ -208,8 +208,6 @@ class LegacyWalk : private LegacyData {
       skip_data(type, size, 4, "LOOKUP_TABLE");
     } else if (keyword == "METADATA") {
       metadata();
-    } else if (line[0] == '\0') {
-      fail("NUL bytes behind the data (file system lost the tail?)");
     } else {
       fail("keyword expected, found \"{}\"", printable(line));
     }

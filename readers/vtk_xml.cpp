@@ -47,12 +47,13 @@ struct FlatColumns {
 FlatColumns flat_columns(const Document& document) {
   FlatColumns flat;
   const Piece* piece = first_with_points(document);
-  if (piece == nullptr) return flat;
-  const DataArray* points = piece->coordinates.empty() ? nullptr : &piece->coordinates.front();
+  const DataArray* points =
+      piece == nullptr || piece->coordinates.empty() ? nullptr : &piece->coordinates.front();
   for (std::size_t c = 0; c < 3; ++c) {
     flat.names.emplace_back(1, "xyz"[c]);
     flat.places.push_back({points, c});
   }
+  if (piece == nullptr) return flat;
   for (const DataArray& array : piece->point_data) {
     if (!gives_columns(array)) continue;
     const auto names = component_names(array.name, static_cast<int>(array.components));

@@ -17,6 +17,7 @@
 #include <type_traits>
 
 #include "readers/base64.hpp"
+#include "readers/numbers.hpp"
 #include "readers/vtk_xml.hpp"
 
 namespace bedscope::readers::vtk_xml_file {
@@ -113,8 +114,14 @@ bool parse_word(const char*& at, const char* end, double& value) {
   if (*begin == '+' && end - begin > 1 && begin[1] != '-') ++begin;
   Parsed parsed{};
   const auto [stop, error] = fast_float::from_chars(begin, end, parsed);
-  if (error == std::errc::invalid_argument || (stop != end && !blank(*stop))) return false;
+  if (error == std::errc::invalid_argument) return false;
   value = static_cast<double>(parsed);
+  if (stop != end && !blank(*stop)) {  // a number that goes on: 1.#QNAN of older Windows
+    const char* const behind = std::find_if(stop, end, blank);
+    if (!parse_number(begin, behind, value) || std::isfinite(value)) return false;
+    at = behind;
+    return !std::is_integral_v<T>;
+  }
   if constexpr (std::is_integral_v<T>) {
     const bool inside = value >= static_cast<double>(std::numeric_limits<T>::min()) &&
                         value <= static_cast<double>(std::numeric_limits<T>::max());

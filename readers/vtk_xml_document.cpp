@@ -291,6 +291,19 @@ class DocumentReader {
   std::optional<DataArray> time_;
 };
 
+// MercuryDPM writes "<!-- time 0.5-->" before <VTKFile>, and no TimeValue.
+double time_of_comment(std::string_view bytes) {
+  constexpr std::string_view begin = "<!-- time ";
+  const auto head = bytes.substr(0, std::min(bytes.find("<VTKFile"), bytes.size()));
+  const auto at = head.find(begin);
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  double time = unknown;
+  if (at == head.npos) return time;
+  const auto rest = head.substr(at + begin.size());
+  const auto text = trimmed(rest.substr(0, rest.find("-->")));
+  return parse_number(text.data(), text.data() + text.size(), time) ? time : unknown;
+}
+
 // A count is a claim: nothing is reserved for more points than the bytes of the file can hold.
 void bound_points(const Document& document) {
   Decoder decoder(document);
@@ -365,6 +378,7 @@ Document parse_document(std::string_view bytes, const std::string& path,
   DocumentReader reader(bytes, path, options.cell_data);
   Document document = reader.read();
   if (!options.condensed) bound_points(document);
+  document.time = time_of_comment(bytes);
   if (const auto time = reader.time_array()) {
     std::vector<double> values;
     Decoder decoder(document);

@@ -280,6 +280,17 @@ class BarePath(Command):
         self.assertIsNone(run["from"])
         self.assertIsNone(run["inventory_kg"])
 
+    def test_tilted_box(self):
+        """The domain is the box around it; a sphere that a side cuts is not wrapped to the other, which lies elsewhere."""
+        write(self.at("tilted.dump"), "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS xy xz yz pp pp ff\n"
+              "0 0.15 0.05\n0 0.1 0\n0 0.2 0\nITEM: ATOMS id x y z radius \n1 0.0005 0.05 0.1 0.001 \n")
+        self.analyse(self.at("tilted.dump"))
+        self.assertTrue(any("tilted" in p for p in self.summary()[0]["problems"]))
+        r, cap = 1e-3, 5e-4
+        inside = np.pi * (4 / 3 * r**3 - cap**2 * (3 * r - cap) / 3)
+        mean = np.mean([float(r["holdup [-]"]) for r in self.rows("axial_profile") if r["type"] == "all"])
+        self.assertAlmostEqual(mean / (inside / (0.15 * 0.1 * 0.2)), 1, places=9)
+
     LOG = """LIGGGHTS (Version LIGGGHTS-PUBLIC 3.8.0)
 variable dt equal 2e-5
 timestep ${dt}

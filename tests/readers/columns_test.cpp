@@ -54,6 +54,17 @@ TEST(Columns, ADensityAndVelocitiesHaveOtherSpellingsToo) {
   }
 }
 
+TEST(Columns, OfMfixIdTypeDensityAndMassAreFound) {
+  const std::vector<std::string> names{"Diameter", "Particle_ID", "Particle_Phase_ID", "Density",
+                                       "Mass"};
+  EXPECT_EQ(one_value(names, {2, 7, 1, 2500, 3}, "radius"), 1);
+  EXPECT_EQ(one_value(names, {2, 7, 1, 2500, 3}, "id"), 7);
+  EXPECT_EQ(one_value(names, {2, 7, 1, 2500, 3}, "type"), 1);
+  EXPECT_EQ(one_value(names, {2, 7, 1, 2500, 3}, "density"), 2500);
+  EXPECT_EQ(one_value(names, {2, 7, 1, 2500, 3}, "mass"), 3);
+  EXPECT_EQ(one_value({"Particle_ID", "id"}, {7, 8}, "id"), 8);
+}
+
 TEST(Columns, ATemperatureIsFoundUnderItsMostUsualNames) {
   for (const char* name :
        {"f_Temp[0]", "f_Temp", "Temp", "T", "c_T", "v_temperature", "Tp", "temp"})

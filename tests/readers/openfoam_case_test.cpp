@@ -202,6 +202,32 @@ TEST(OpenFoamCase, LastTimeThatIsCutIsLeftOutAndTold) {
             std::string::npos);
 }
 
+TEST(OpenFoamCase, LastTimeThatEndsInNulBytesIsLeftOutAndTold) {
+  const Folder folder;
+  folder.copy(data / "ascii");
+  folder.copy(data / "ascii/0.003", "0.004");
+  folder.write("0.004/U.air", bytes_of(data / "ascii/0.003/U.air") + std::string(300, '\0'));
+  const auto foam = OpenFoamCase::open(folder.path());
+  EXPECT_EQ(time_names(foam), (std::vector<std::string>{"0.003"}));
+  ASSERT_EQ(foam.problems().size(), 1U);
+  EXPECT_NE(foam.problems()[0].find("time 0.004 is left out: "), std::string::npos);
+  EXPECT_NE(foam.problems()[0].find("U.air: ends in NUL bytes"), std::string::npos);
+}
+
+TEST(OpenFoamCase, CellsWithoutVolumeAreTold) {
+  const Folder folder;
+  folder.copy(data / "ascii");
+  std::string points = header("vectorField") + "462\n(\n";
+  for (int p = 0; p < 462; ++p) points += "(1 2 3)\n";
+  folder.write("constant/polyMesh/points", points + ")\n");
+  const auto foam = OpenFoamCase::open(folder.path());
+  ASSERT_EQ(foam.problems().size(), 1U);
+  EXPECT_NE(foam.problems()[0].find("constant/polyMesh: 200 of 200 cells have no volume, or one "
+                                    "below zero; first: cell 0, 0 m3"),
+            std::string::npos)
+      << foam.problems()[0];
+}
+
 TEST(OpenFoamCase, FieldThatComesAndGoesIsTold) {
   const Folder folder;
   folder.copy(data / "ascii");

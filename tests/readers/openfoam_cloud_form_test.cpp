@@ -156,6 +156,85 @@ TEST(CloudForm, LastTimeThatIsCutOrLacksAFileIsLeftOutAndTold) {
   }
 }
 
+// A header alone ends like a whole file, nearly: "// * * * //".
+TEST(CloudForm, LastTimeThatIsCutBehindAHeaderOrEndsInNulBytesIsLeftOutToo) {
+  const std::string footer = "\n// " + std::string(73, '*') + " //\n";
+  for (const auto& tail : {std::string("// * * * * * //\n"), std::string(300, '\0')}) {
+    const Folder folder;
+    for (const auto* time : {"1", "2"}) {
+      write_cloud(folder, time, 3);
+      for (const auto* name : {"positions", "d", "origId"}) {
+        const auto path = fmt::format("{}/lagrangian/kinematicCloud/{}", time, name);
+        folder.write(path, bytes_of(folder.path(path)) + footer);
+      }
+    }
+    EXPECT_EQ(Series::open(folder.path()).size(), 2U);
+    folder.write("2/lagrangian/kinematicCloud/d", header("scalarField") + tail);
+    const auto series = Series::open(folder.path());
+    EXPECT_EQ(series.size(), 1U);
+    ASSERT_EQ(series.problems().size(), 1U);
+    EXPECT_NE(series.problems()[0].find("time 2 is left out: "), std::string::npos)
+        << series.problems()[0];
+  }
+}
+
+// Three parcels on each of two ranks, at two times.
+void write_ranks(const Folder& folder) {
+  folder.write("system/controlDict", header("dictionary"));
+  for (const auto* rank : {"processor0", "processor1"})
+    for (const auto* time : {"1", "2"}) {
+      write_cloud(folder, time, 3);
+      fs::create_directories(folder.path(fmt::format("{}/{}", rank, time)));
+      fs::rename(folder.path(fmt::format("{}/lagrangian", time)),
+                 folder.path(fmt::format("{}/{}/lagrangian", rank, time)));
+      fs::remove_all(folder.path(time));
+    }
+}
+
+TEST(CloudForm, RankWithoutParcelsMayHaveNoFields) {
+  for (const bool positions : {false, true}) {
+    const Folder folder;
+    write_ranks(folder);
+    for (const auto* time : {"1", "2"}) {
+      const auto cloud = fmt::format("processor0/{}/lagrangian/kinematicCloud", time);
+      fs::remove_all(folder.path(cloud));
+      fs::create_directories(folder.path(cloud));
+      if (positions) folder.write(cloud + "/positions", header("Cloud<parcel>") + "0()\n");
+    }
+    const auto series = Series::open(folder.path());
+    ASSERT_EQ(series.size(), 2U);
+    EXPECT_TRUE(series.problems().empty());
+    const auto rows = read(series, 1, {{"radius"}});
+    EXPECT_EQ(rows.columns[0], (std::vector<double>(3, 0.001)));
+  }
+}
+
+TEST(CloudForm, FileThatOneRankLacksIsAnErrorAndOfTheLastTimeLeavesItOut) {
+  for (const auto* name : {"positions", "d"}) {
+    const Folder folder;
+    write_ranks(folder);
+    fs::remove(folder.path(fmt::format("processor1/2/lagrangian/kinematicCloud/{}", name)));
+    const auto series = Series::open(folder.path());
+    EXPECT_EQ(series.size(), 1U) << name;
+    ASSERT_EQ(series.problems().size(), 1U) << name;
+    EXPECT_NE(series.problems()[0].find("time 2 is left out: "), std::string::npos);
+    EXPECT_NE(series.problems()[0].find("no such file"), std::string::npos) << series.problems()[0];
+    fs::remove(folder.path(fmt::format("processor0/1/lagrangian/kinematicCloud/{}", name)));
+    EXPECT_NE(
+        error_of([&] { read(Series::open(folder.path()), 0, {{"radius"}}); }).find("no such file"),
+        std::string::npos)
+        << name;
+  }
+}
+
+TEST(CloudForm, FieldsNamedLikeACoordinateDoNotHideThePositions) {
+  const Folder folder;
+  write_cloud(folder, "1", 3);
+  folder.write("1/lagrangian/kinematicCloud/x", header("scalarField") + "3{7}\n");
+  EXPECT_EQ(read(Series::open(folder.path()), 0, {{"x"}}).columns[0],
+            (std::vector<double>{0, 1, 2}));
+}
+
 TEST(CloudForm, SurveyReadsEveryFileAndTellsOneThatIsMissing) {
   const Folder folder;
   for (const auto* time : {"1", "2", "3"}) write_cloud(folder, time, 3);
@@ -170,6 +249,19 @@ TEST(CloudForm, SurveyReadsEveryFileAndTellsOneThatIsMissing) {
             "kinematicCloud: time 2: lacks d diameter, which earlier times have");
   folder.write("2/lagrangian/kinematicCloud/origId", header("labelField") + "3(0 1");
   EXPECT_NE(error_of(look).find("origId"), std::string::npos);
+}
+
+TEST(CaseSurvey, ValuesThatNoFlowHasAreDoubted) {
+  const Folder folder;
+  folder.copy(data / "ascii");
+  const auto look = [&] { return survey(OpenFoamCase::open(folder.path()), true).problems; };
+  EXPECT_TRUE(look().empty());
+  folder.write("0.003/p", header("volScalarField") +
+                              "dimensions [0 2 -2 0 0 0 0]; internalField uniform -3e150;\n"
+                              "boundaryField {}\n");
+  const auto problems = look();
+  ASSERT_EQ(problems.size(), 1U);
+  EXPECT_NE(problems[0].find("p: values up to 3e+150 are implausible"), std::string::npos);
 }
 
 TEST(CloudForm, CaseWithoutACloudSaysSo) {

@@ -11,6 +11,7 @@
 #include "openfoam_samples.hpp"
 #include "readers/openfoam_case.hpp"
 #include "readers/openfoam_list.hpp"
+#include "readers/openfoam_tets.hpp"
 
 namespace bedscope::readers {
 namespace {
@@ -73,6 +74,7 @@ TEST(OpenFoamCloud, LengthOfABinaryRecordTellsItsForm) {
     std::string bytes = "(";
     for (const double x : numbers) bytes.append(reinterpret_cast<const char*>(&x), 8);
     bytes.append(labels * 4, '\0');
+    if (labels == 3) bytes[bytes.size() - 4] = 1;  // tetPt
     if (fraction) bytes.append(8, '\0');
     return bytes + ")\n";
   };
@@ -91,15 +93,82 @@ TEST(OpenFoamCloud, LengthOfABinaryRecordTellsItsForm) {
 }
 
 TEST(OpenFoamCloud, LabelsOutsideTheMeshAreErrors) {
-  for (const auto* labels : {"1 4 1", "-1 4 1", "0 6 1", "0 -4 1", "0 4 -1"})
+  for (const auto* labels : {"1 4 1", "-1 4 1", "0 6 1", "0 -4 1"})
     EXPECT_NE(error_of([&] {
                 points_of(fmt::format("1((1 0 0 0) {})", labels));
               }).find("expected a cell"),
               std::string::npos)
         << labels;
+  for (const auto* labels : {"0 4 -1", "0 4 0", "0 4 3", "0 4 99"})
+    EXPECT_NE(error_of([&] {
+                points_of(fmt::format("1((1 0 0 0) {})", labels));
+              }).find("face 4 of 4 points has no triangle "),
+              std::string::npos)
+        << labels;
   for (const auto* text : {"1099511627776((1 2 3) 0)", "-1()", "2((1 2 3) 0)", "1((1 2) 0)",
                            "1((1 2 3 4 5) 0)", "1((1 2 3) )"})
     EXPECT_NE(error_of([&] { points_of(text); }), "") << text;
+}
+
+TEST(OpenFoamCloud, CellMustBeBoundedByTheFace) {
+  auto mesh = cube();
+  mesh.poly.cells = 2;
+  mesh.centres.push_back({1.5, 0.5, 0.5});
+  const Folder folder;
+  FoamBlocks file(folder.write("positions", header("Cloud<parcel>") + "1((1 0 0 0) 1 4 1)"));
+  ASSERT_TRUE(file.next());
+  CloudPoints points;
+  const auto error = error_of([&] {
+    read_cloud_points(
+        file, [&]() -> const CloudMesh& { return mesh; }, points);
+  });
+  EXPECT_NE(error.find("parcel 0: cell 1 is not bounded by face 4"), std::string::npos) << error;
+}
+
+TEST(OpenFoamCloud, TrianglesOfAFaceBeginAtItsBase) {
+  // 0.4 (.5 .5 .5) + 0.3 (0 0 1) + 0.2 (0 1 1) + 0.1 (0 1 0): face 4 from its point 1 on
+  const Folder folder;
+  FoamBlocks file(folder.write("positions", header("Cloud<parcel>") + "1((.4 .3 .2 .1) 0 4 1)"));
+  ASSERT_TRUE(file.next());
+  auto mesh = cube();
+  mesh.base = {0, 0, 0, 0, 1, 0};
+  CloudPoints points;
+  read_cloud_points(
+      file, [&]() -> const CloudMesh& { return mesh; }, points);
+  EXPECT_NEAR(points.at.at(0)[0], 0.2, 1e-15);
+  EXPECT_NEAR(points.at.at(0)[1], 0.5, 1e-15);
+  EXPECT_NEAR(points.at.at(0)[2], 0.7, 1e-15);
+}
+
+TEST(OpenFoamTets, BaseOfAFaceThatIsNotConvexIsTheFirstPointThatSeesAllOfIt) {
+  auto mesh = cube();
+  EXPECT_EQ(tet_base_points(mesh.poly, mesh.centres, nullptr), std::vector<std::int32_t>(6));
+  // The top (z = 1) as the points (1 0), (1 1), (0 1), (.8 .8): from the first of them the triangle
+  // to the last lies outside. The sides at the point that moved stay good.
+  mesh.poly.points[4] = {0.8, 0.8, 1};
+  const std::vector<std::int32_t> top{5, 6, 7, 4};
+  std::copy(top.begin(), top.end(), mesh.poly.face_points.begin() + 4);
+  EXPECT_EQ(tet_base_points(mesh.poly, mesh.centres, nullptr)[1], 1);
+  // Turned over and seen from a neighbour above it, the same.
+  mesh.poly.cells = 2;
+  mesh.centres.push_back({0.5, 0.5, 1.5});
+  mesh.poly.neighbour = {1, 1};
+  EXPECT_EQ(tet_base_points(mesh.poly, mesh.centres, nullptr)[1], 1);
+}
+
+TEST(OpenFoamTets, FileOfTheMeshWins) {
+  const Folder folder;
+  const auto mesh = cube();
+  const auto read = [&](const char* list) {
+    FoamBlocks file(folder.write("tetBasePtIs", header("labelList") + list));
+    EXPECT_TRUE(file.next());
+    return tet_base_points(mesh.poly, mesh.centres, &file);
+  };
+  EXPECT_EQ(read("6(0 1 -1 2 0 3)"), (std::vector<std::int32_t>{0, 1, 0, 2, 0, 3}));
+  EXPECT_NE(error_of([&] { read("6(0 1 -1 2 4 3)"); }).find("face 4 has 4 points, found 4"),
+            std::string::npos);
+  EXPECT_NE(error_of([&] { read("5(0 1 -1 2 3)"); }).find("list declares 5 values"),
+            std::string::npos);
 }
 
 // OpenFOAM wrote both; its cell centres are in the one and not in the other, so that this judges

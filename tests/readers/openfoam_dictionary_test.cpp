@@ -55,6 +55,11 @@ TEST(OpenFoamDictionary, MacrosAreValuesOfTheSameFile) {
   EXPECT_EQ(d.value("U", ""), "uniform ( 0 3 3 )");
   EXPECT_EQ(d.value("v", ""), "4");
   EXPECT_EQ(d.value("w", ""), "4");
+  const auto later =
+      parse("u 3; in { speed 4; } v $in/speed; w uniform ($!in/speed $u 0); x $u// $u\n;");
+  EXPECT_EQ(later.value("v", ""), "4");
+  EXPECT_EQ(later.value("w", ""), "uniform ( 4 3 0 )");
+  EXPECT_EQ(later.value("x", ""), "3");
 }
 
 TEST(OpenFoamDictionary, MacroInACircleOrWithoutAValueIsAnError) {

@@ -174,6 +174,19 @@ TEST_F(BrokenMesh, NeedsEveryPointAndFace) {
   EXPECT_NE(error().find("points: is empty"), std::string::npos) << error();
 }
 
+TEST_F(BrokenMesh, PatchesHaveFacesOfTheirOwn) {
+  const auto poly = read_poly_mesh(from(folder_.path()));
+  const auto& second = poly.patches.at(1);
+  const auto start = fmt::format("{};", second.start);
+  replace("boundary", start, fmt::format("{};", second.start - 1));
+  EXPECT_NE(error().find(fmt::format("patch {} begins at face {}, expected {}", second.name,
+                                     second.start - 1, second.start)),
+            std::string::npos)
+      << error();
+  folder_.write("boundary", "");
+  EXPECT_NE(error().find("expected a list of patches, found end of file"), std::string::npos);
+}
+
 TEST_F(BrokenMesh, OldMeshMayPadTheNeighboursWithMinusOne) {
   auto poly = read_poly_mesh(from(folder_.path()));
   std::string text = header("labelList") + "830\n(\n";

@@ -223,6 +223,32 @@ TEST(Series, ACutLastVtkFileIsLeftOutAndSaid) {
   EXPECT_TRUE(series.cut());
 }
 
+TEST(Series, ALastVtkFileThatIsCutInALineOrEndsInNulBytesIsLeftOutToo) {
+  const auto whole = small_vtk(50);
+  const auto word = whole.find("radius float");
+  ASSERT_NE(word, std::string::npos);
+  for (const auto& last : {whole.substr(0, word + 10), whole + std::string(400, '\0')}) {
+    const TemporaryFolder folder;
+    folder.write("dump900.vtk", whole);
+    folder.write("dump1000.vtk", last);
+    const auto series = Series::open(folder.path());
+    EXPECT_EQ(steps_of(series), (Steps{900}));
+    EXPECT_TRUE(series.cut());
+  }
+}
+
+TEST(Series, ParcelsOfAnyFormAreSpheresOfTheVolumeOfTheirParticlesAndAreTold) {
+  const TemporaryFolder folder;
+  const auto path = folder.write(
+      "dump1", dump_header(1, 2, "id x y z d nParticle") + "1 0 0 0 .2 8 \n2 0 0 1 .2 1 \n");
+  const auto series = Series::open(path);
+  EXPECT_EQ(read(series, 0, {"nParticle", "radius", "d"}).columns,
+            (std::vector<std::vector<double>>{{8, 1}, {.2, .1}, {.2, .2}}));
+  ASSERT_EQ(series.problems().size(), 1U);
+  EXPECT_NE(series.problems()[0].find("one parcel stands for 1 to 8 particles (nParticle)"),
+            std::string::npos);
+}
+
 TEST(Series, ACutFileBeforeTheLastIsAnError) {
   // By a look at the headers alone, or when it is read: never passed over.
   for (const std::size_t particles : {5U, 300U})

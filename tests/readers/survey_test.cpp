@@ -58,6 +58,25 @@ TEST(Survey, ParticlesThatAreNotFiniteOrHaveNoSizeAreNamedAndKeptOutOfTheRanges)
   EXPECT_NE(found.problems[2].find("line 14 (id 1)"), std::string::npos) << found.problems[2];
 }
 
+TEST(Survey, TypesThatAreNoWholeNumberAreTypeZeroAndNamed) {
+  const TemporaryFolder folder;
+  const auto path = folder.write(
+      "dump1",
+      dump_header(1, 5, "id type x y z radius") +
+          "1 2 0 0 0 1 \n2 nan 0 0 0 1 \n3 1.5 0 0 0 1 \n4 1e12 0 0 0 1 \n5 -1 0 0 0 1 \n");
+  const auto found = survey(Series::open(path), true);
+  std::map<std::int64_t, std::int64_t> particles;
+  for (const auto& [type, species] : found.types) particles[type] = species.particles;
+  EXPECT_EQ(particles, (std::map<std::int64_t, std::int64_t>{{-1, 1}, {0, 3}, {2, 1}}));
+  ASSERT_EQ(found.problems.size(), 1U);
+  EXPECT_NE(found.problems[0].find("3 particles in 1 snapshots have a type that is no whole "
+                                   "number, counted as type 0; first: "),
+            std::string::npos);
+  EXPECT_NE(found.problems[0].find("line 11 (id 2), line 12 (id 3), line 13 (id 4)"),
+            std::string::npos)
+      << found.problems[0];
+}
+
 TEST(Survey, EveryColumnHasItsRangeMeanZerosAndFlaws) {
   const TemporaryFolder folder;
   const auto path =
@@ -107,6 +126,18 @@ TEST(Survey, MassesVolumesAndSpeedsAreThoseOfTheRows) {
   EXPECT_EQ(found.types.at(1).particles, 2);
   EXPECT_EQ(found.outside_box, 1);
   EXPECT_EQ(found.counts, (std::vector<std::int64_t>{2, 1}));
+}
+
+TEST(Survey, HoldupIsThatOfATiltedBoxNotOfTheOneAroundIt) {
+  const TemporaryFolder folder;
+  // Sides 2, 3 and 4, tilted by xy = -0.5, xz = 1, yz = 0.5: 24 m3 in a box of 3.5 x 3.5 x 4.
+  const auto path =
+      folder.write("dump1",
+                   "ITEM: TIMESTEP\n1\nITEM: NUMBER OF ATOMS\n1\n"
+                   "ITEM: BOX BOUNDS xy xz yz pp pp ff\n-0.5 3 -0.5\n0 3.5 1\n0 4 0.5\n"
+                   "ITEM: ATOMS id x y z radius \n1 1 1 1 0.5 \n");
+  const auto found = survey(Series::open(path), true);
+  EXPECT_NEAR(found.read.at(0).holdup, std::numbers::pi / 6 / 24, 1e-15);
 }
 
 TEST(Survey, OfBodiesTheMassIsNotSummed) {

@@ -351,6 +351,14 @@ TEST(VtkLegacy, WindowsLineEndsOfAsciiFilesAreAccepted) {
   EXPECT_EQ(read_text(text, {"x"}).columns[0], ramp(40, 0, 1));
 }
 
+TEST(VtkLegacy, KeywordsMayHaveAnyCase) {
+  auto text = replaced(small_vtk(40), "DATASET POLYDATA", "Dataset PolyData");
+  text = replaced(text, "POINTS", "Points");
+  text = replaced(text, "VERTICES", "vertices");
+  text = replaced(text, "POINT_DATA", "point_data");
+  EXPECT_EQ(read_text(text, {"x"}).columns[0], ramp(40, 0, 1));
+}
+
 TEST(VtkLegacy, CompanionsAreNamedForWhatTheyAre) {
   struct Companion {
     const char *file, *what;

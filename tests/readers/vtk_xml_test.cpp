@@ -288,6 +288,25 @@ TEST(VtkXml, NanAndInfinityAreReadAsSuch) {
   EXPECT_EQ(values[1], -std::numeric_limits<double>::infinity());
 }
 
+TEST(VtkXml, WhatWindowsPrintsForNanIsReadAndNothingElseThatGoesOn) {
+  EXPECT_TRUE(std::isnan(read_text(small_file("1.#QNAN 2"), {"radius"}).columns[0][0]));
+  EXPECT_TRUE(std::isinf(read_text(small_file("1 -1.#INF00"), {"radius"}).columns[0][1]));
+  for (const auto* text : {"1.5x 2", "1.#ABC 2", "1d0 2"})
+    EXPECT_THROW(read_text(small_file(text), {"radius"}), FormatError) << text;
+}
+
+TEST(VtkXml, TheTimeOfMercuryDpmStandsInAComment) {
+  const auto with = [](const char* comment) {
+    return read_text(
+               "<?xml version=\"1.0\"?>\n\n" + std::string(comment) + "\n" + small_file("1 2"),
+               {"radius"})
+        .time;
+  };
+  EXPECT_EQ(with("<!-- time 0.5-->"), 0.5);
+  EXPECT_EQ(with("<!-- time 2.5e-05 -->"), 2.5e-05);
+  EXPECT_TRUE(std::isnan(with("<!-- time of the run: 0.5 -->")));
+}
+
 TEST(VtkXml, AGzipFileIsReadWithoutBeingAskedFor) {
   const std::string text = bytes_of(data / "inline_zlib.vtp");
   const TemporaryFile file("", "dump.vtp.gz");
