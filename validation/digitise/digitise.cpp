@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <opencv2/imgproc.hpp>
 
 #include "readers/error.hpp"
@@ -51,22 +52,40 @@ double shorter_side(const cv::Rect2d& box) {
 
 double thickest(const cv::Rect2d& box) { return std::max(5.0, 0.02 * shorter_side(box)); }
 
+/// The angle by which the long straight lines lean; where there are none but those of the plot's
+/// grid in the colour of the page, of these. Nothing where there are no such lines.
+std::optional<double> lean_of(const Page& page, const cv::Rect2d& plot) {
+  const double least = 0.5 * shorter_side(plot);
+  const auto lines = angle_of(find_rules(ink_of_page(page, plot), least, thickest(plot)));
+  const cv::Rect inside = cv::Rect(plot) & cv::Rect({0, 0}, page.image().size());
+  if (lines || inside.empty()) return lines;
+  const cv::Mat part = page.image()(inside);
+  return angle_of(
+      find_rules(ink_of(part, paper_of(part, {{0, 0}, part.size()})), least, thickest(plot)));
+}
+
+struct Upright {
+  Page page;
+  double u_angle = 0;  ///< of the angle by which it was turned [rad]
+};
+
 /// The picture made upright: by the angle that the file gives, or that the calibration points show
-/// (the picture itself where they do not tell), made finer by the straight lines in the picture.
-Page upright(const cv::Mat& picture, const Figure& figure) {
+/// (the picture itself where they do not tell; none where it may be that of their pixels), made
+/// finer by the straight lines in the picture.
+Upright upright(const cv::Mat& picture, const Figure& figure) {
   const auto box = box_of_points(figure, Page(picture, 0));
   const double stroke =
       stroke_width(ink_of(picture, paper_of(picture, {0, 0, picture.cols, picture.rows})));
   const int reduction = reduction_for(std::max(box.width, box.height), stroke);
-  if (figure.rotation) return {picture, *figure.rotation, reduction};
-  double angle = angle_of_points(figure);
+  if (figure.rotation) return {{picture, *figure.rotation, reduction}};
+  auto [angle, u] = angle_of_points(figure);
   if (std::isnan(angle)) angle = angle_of_ink(picture);
+  if (std::abs(angle) < 3 * u) angle = u = 0;
   Page page(picture, angle, reduction);
-  const auto inside = box_of_points(figure, page);
-  const auto rest =
-      angle_of(find_rules(ink_of_page(page, inside), 0.5 * shorter_side(inside), thickest(inside)));
-  if (!rest || std::abs(*rest) < 0.01 || std::abs(*rest) > 0.5) return page;
-  return {picture, angle + *rest, reduction};
+  const auto rest = lean_of(page, box_of_points(figure, page));
+  if (!rest || std::abs(*rest) > 0.5) return {page, u * std::numbers::pi / 180};
+  if (std::abs(*rest) < 0.01) return {page};
+  return {{picture, angle + *rest, reduction}};
 }
 
 /// `across`: the long lines across the axis.
@@ -93,13 +112,17 @@ cv::Rect whole_pixels(const cv::Rect2d& box, cv::Size page) {
 class Digitiser {
  public:
   Digitiser(const cv::Mat& picture, bool lossy, const Figure& figure, const std::string& where)
-      : figure_(figure), where_(where), page_(upright(picture, figure)) {
+      : figure_(figure), where_(where), upright_(upright(picture, figure)) {
     found_.angle = page_.angle();
     const auto inside = box_of_points(figure_, page_);
     const auto rules =
         find_rules(ink_of_page(page_, inside), 0.4 * shorter_side(inside), thickest(inside));
     x_ = calibration_of(figure.x, page_, rules.columns, true, where);
     y_ = calibration_of(figure.y, page_, rules.rows, false, where);
+    for (const auto& point : figure.x.points)
+      row_of_x_ += page_.to_page(point.pixel).y / static_cast<double>(figure.x.points.size());
+    for (const auto& point : figure.y.points)
+      column_of_y_ += page_.to_page(point.pixel).x / static_cast<double>(figure.y.points.size());
     find_area(inside, rules);
     separate_inks(lossy);
     find_left_out();
@@ -305,8 +328,11 @@ class Digitiser {
     point.u_pixel[1] = u_y;
     point.x = x_.value(at.x);
     point.y = y_.value(at.y);
-    point.x_u = x_.uncertainty(at.x, u_x);
-    point.y_u = y_.uncertainty(at.y, u_y);
+    // A page that leans moves what is far from an axis' points along it.
+    const double lean_x = upright_.u_angle * (at.y - row_of_x_),
+                 lean_y = upright_.u_angle * (at.x - column_of_y_);
+    point.x_u = x_.uncertainty(at.x, std::hypot(u_x, lean_x));
+    point.y_u = y_.uncertainty(at.y, std::hypot(u_y, lean_y));
     return point;
   }
 
@@ -379,8 +405,10 @@ class Digitiser {
 
   const Figure& figure_;
   const std::string& where_;
-  Page page_;
+  Upright upright_;
+  const Page& page_ = upright_.page;
   Calibration x_, y_;
+  double row_of_x_ = 0, column_of_y_ = 0;  ///< where the axes' points are
   cv::Rect area_;
   Colours colours_;
   std::map<int, std::vector<std::size_t>> members_;  ///< the series of an ink

@@ -95,9 +95,12 @@ TEST(Calibration, AngleOfPointsNeedsAxesThatAgree) {
   Figure figure;
   figure.x = axis({{{100, 500}, 0}, {{500, 486}, 1}});
   figure.y = axis({{{100, 500}, 0}, {{86, 100}, 1}});
-  EXPECT_NEAR(angle_of_points(figure), std::atan2(14, 400) * 180 / M_PI, 1e-9);
+  EXPECT_NEAR(angle_of_points(figure).angle, std::atan2(14, 400) * 180 / M_PI, 1e-9);
+  // Pixels picked by eye, uniform within one to each side, at the ends of two lines.
+  const double length = std::hypot(14, 400);
+  EXPECT_NEAR(angle_of_points(figure).u, std::sqrt(1 / 3.0) / length * 180 / M_PI, 1e-9);
   figure.y = axis({{{100, 500}, 0}, {{500, 100}, 1}});  // the far corner for both axes
-  EXPECT_TRUE(std::isnan(angle_of_points(figure)));
+  EXPECT_TRUE(std::isnan(angle_of_points(figure).angle));
 }
 
 TEST(Page, PointsGoThereAndBack) {
@@ -250,7 +253,8 @@ InkMap dashed_line(double x, double slope, double width, double dash, double gap
 }
 
 TEST(Lines, DashesAndDotsOfSteepLinesAreReadWhereTheirEndsDoNotShift) {
-  for (const double slope : {0.5, 1.3})
+  // At a slope of 6 the dashes lie above each other, two in a column.
+  for (const double slope : {0.5, 1.3, 6.0})
     for (const auto& [dash, gap] : {std::pair(16.0, 7.0), {3.0, 5.0}}) {
       const auto line = trace_line(dashed_line(20, slope, 3, dash, gap), {}, 200);
       ASSERT_GT(line.points.size(), 8U);
@@ -259,6 +263,42 @@ TEST(Lines, DashesAndDotsOfSteepLinesAreReadWhereTheirEndsDoNotShift) {
         EXPECT_NEAR((point.at.y - 20 - slope * (point.at.x - 20)) / std::hypot(1, slope), 0, 0.15)
             << slope << " " << dash << " " << point.at.x;
     }
+}
+
+TEST(Lines, OtherInkOfTheSameColourDoesNotMoveThePoints) {
+  auto map = dashed_line(20, 0.2, 3, 500, 0);
+  const auto alone = trace_line(map, {}, 200);
+  for (const int x : {60, 100, 140}) {  // bars, and a stroke that grows out of the line
+    map.coverage(cv::Rect(x, 10, 2, 60)).setTo(1);
+    cv::line(map.coverage, {x + 10, cvRound(20 + 0.2 * (x - 10))},
+             {x + 25, cvRound(20 + 0.2 * (x - 10)) + 9}, cv::Scalar(1), 2);
+  }
+  const auto line = trace_line(map, {}, 200);
+  ASSERT_GT(line.points.size(), alone.points.size() / 2);
+  for (const auto& point : line.points)
+    EXPECT_NEAR((point.at.y - 20 - 0.2 * (point.at.x - 20)) / std::hypot(1, 0.2), 0, 0.15)
+        << point.at.x;
+}
+
+TEST(Page, PointsOffByTheirPixelsDoNotTurnAnUprightPicture) {
+  Figure figure;
+  figure.x = axis({{{100, 400}, 0}, {{700, 401}, 1}});  // 0.1 degrees
+  figure.y = axis({{{100, 400}, 0}, {{100, 50}, 1}});
+  SeriesSpec series;
+  series.name = "a";
+  series.kind = Kind::line;
+  series.colour = {0, 0, 255};
+  figure.series = {series};
+  cv::Mat picture(500, 800, CV_8UC3, cv::Scalar::all(255));
+  cv::ellipse(picture, {400, 400}, {250, 250}, 0, 180, 360, cv::Scalar(0, 0, 255), 3, cv::LINE_AA);
+  EXPECT_EQ(digitise(picture, false, figure, "f").angle, 0);
+  const auto straight = digitise(picture, false, figure, "f").series[0].points;
+  // Twelve pixels are no pixel's error; the angle's own is that of points far from the axes.
+  figure.x.points[1].pixel.y = 388;
+  figure.y.points[1].pixel.x = 93;
+  const auto found = digitise(picture, false, figure, "f");
+  EXPECT_NEAR(found.angle, std::atan2(12, 600) * 180 / M_PI, 0.02);
+  EXPECT_GT(found.series[0].points[100].x_u, straight[100].x_u);
 }
 
 TEST(Doubt, AMarkerThatFitsMuchWorseThanItsSeries) {
