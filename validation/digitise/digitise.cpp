@@ -249,6 +249,7 @@ class Digitiser {
       if (const auto unasked = markers_on_line(map)) {
         templates.push_back(*unasked);
         markers = find_markers(map, templates);
+        complete(markers[0], page_.reduction(), page_.angle() != 0, colours_.lossy);
       }
     const InkMap whole{map.coverage, map.unknown.clone()};
     cover_markers(map, templates, markers);
@@ -302,8 +303,23 @@ class Digitiser {
     return places.size() > 3 ? text + " ..." : text;
   }
 
+  /// The shapes of an ink: those that are named where each of several series names its own.
+  std::vector<Shape> shapes_among(const std::vector<std::size_t>& members) const {
+    std::vector<Shape> named;
+    int series = 0;
+    for (const auto i : members) {
+      if (figure_.series[i].kind != Kind::markers) continue;
+      if (!figure_.series[i].shape) return candidates(std::nullopt);
+      ++series;
+      for (const auto& shape : candidates(figure_.series[i].shape)) named.push_back(shape);
+    }
+    return series > 1 ? named : candidates(std::nullopt);
+  }
+
   MarkerQuery query_of(const SeriesSpec& series, int ink) const {
-    MarkerQuery query{series.shape, {}, {}};
+    MarkerQuery query;
+    query.shape = series.shape;
+    query.among = shapes_among(members_.at(ink));
     if (!series.sample) return query;
     const cv::Rect2d wanted = *series.sample;
     const cv::Rect box = whole_pixels(page_.to_page(wanted), page_.image().size());

@@ -53,7 +53,8 @@ std::vector<cv::Point2d> missed_markers(const InkMap& rest,
              std::min(marker.box.width, marker.box.height) / 2;
     });
   });
-  const auto group = best_group(pieces, rest.coverage, candidates(std::nullopt), 0.88);
+  const auto all = candidates(std::nullopt);
+  const auto group = best_group(pieces, rest.coverage, all, all, 0.88);
   if (group && group->pieces.size() >= 3)
     for (const auto& piece : group->pieces) places.push_back(middle_of(piece.box));
   return places;

@@ -60,7 +60,7 @@ std::optional<Template> learn(const InkMap& map, const MarkerQuery& query) {
   const double all = cv::sum(map.coverage)[0];
   constexpr double much = 0.35;  // of the ink: what holds as much can only be the markers
   const auto pieces = pieces_of(mask, map);
-  const auto alone = best_group(pieces, map.coverage, shapes, 0.8);
+  const auto alone = best_group(pieces, map.coverage, query.among, shapes, 0.8);
   if (alone && (alone->ink > much * all ||
                 (alone->pieces.size() >= 3 && (query.shape || alone->resemblance > 0.88))))
     return template_of(*alone, map);
@@ -75,7 +75,7 @@ std::optional<Template> learn(const InkMap& map, const MarkerQuery& query) {
   if (drawn) return drawn;
   if (alone) return template_of(*alone, map);
   // A shape without a name, or one that does not look like its name.
-  if (auto group = best_group(pieces, map.coverage, candidates(std::nullopt), 0.0)) {
+  if (auto group = best_group(pieces, map.coverage, query.among, query.among, 0.0)) {
     if (query.shape) group->shape = shapes.front();
     return template_of(*group, map);
   }

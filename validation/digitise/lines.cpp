@@ -183,6 +183,26 @@ std::vector<Passage> passages_of(const std::vector<Run>& runs, const std::vector
   return passages;
 }
 
+struct Sample {
+  PlaceOnLine place;
+  bool marker = false;
+};
+
+/// Whether the line as seen before or behind a marker goes through it, within twice its
+/// uncertainty: a line may pass beside the markers that it was fitted to.
+bool on_line(const std::vector<Sample>& samples, std::size_t marker) {
+  const auto& [place, is_marker] = samples[marker];
+  const auto meets = [&](std::size_t i) {
+    const auto& [at, along] = samples[i].place.passage;
+    return std::abs((place.passage.at - at).cross(along)) <= 2 * place.u;
+  };
+  const auto line = [&](std::size_t i) { return !samples[i].marker; };
+  std::size_t before = marker, after = marker;
+  while (before > 0 && !line(before)) --before;
+  while (after + 1 < samples.size() && !line(after)) ++after;
+  return (line(before) && meets(before)) || (line(after) && meets(after));
+}
+
 /// At most `points` places, equally spaced along the path, so that steep parts have theirs.
 TracedLine sample(const InkMap& map, const Path& path, double stroke, int points) {
   TracedLine line;
@@ -192,6 +212,7 @@ TracedLine sample(const InkMap& map, const Path& path, double stroke, int points
   const auto passages = passages_of(runs, along, stroke);
   const auto thickness = thickness_of(map, passages, stroke);
   const double spacing = std::max(1.0, along.back() / std::max(1, points - 1));
+  std::vector<Sample> samples;
   std::size_t next = 0, last = runs.size();
   for (double wanted = 0; wanted < along.back() + 0.5 * spacing; wanted += spacing) {
     while (next + 1 < runs.size() &&
@@ -206,14 +227,18 @@ TracedLine sample(const InkMap& map, const Path& path, double stroke, int points
     });
     for (const auto j : near) {
       if (j == last) break;
-      if (runs[j].u > 0) continue;
-      if (const auto place = place_across(map, passages[j], stroke, thickness)) {
-        line.points.push_back({place->at, place->u});
-        last = j;
-        break;
-      }
+      const bool marker = runs[j].u > 0;
+      const auto place = marker ? std::optional(PlaceOnLine{passages[j], runs[j].u})
+                                : place_across(map, passages[j], stroke, thickness);
+      if (!place) continue;
+      samples.push_back({*place, marker});
+      last = j;
+      break;
     }
   }
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    if (!samples[i].marker || on_line(samples, i))
+      line.points.push_back({samples[i].place.passage.at, samples[i].place.u});
   return line;
 }
 

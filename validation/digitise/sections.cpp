@@ -149,7 +149,7 @@ std::optional<PlaceOnLine> place_across(const InkMap& map, const Passage& near, 
     }
     if (cv::norm(passage.at - near.at) > stroke + 1) return std::nullopt;
   }
-  return PlaceOnLine{passage.at, u};
+  return PlaceOnLine{passage, u};
 }
 
 }  // namespace bedscope::digitise

@@ -24,7 +24,7 @@ struct Thickness {
 Thickness thickness_of(const InkMap& map, const std::vector<Passage>& passages, double stroke);
 
 struct PlaceOnLine {
-  cv::Point2d at;
+  Passage passage;
   double u = 0;  ///< across the line [px]
 };
 
