@@ -96,8 +96,12 @@ Calibration calibration_of(const AxisSpec& axis, const Page& page, const std::ve
     const auto at = page.to_page(point.pixel);
     along.push_back(is_x ? at.x : at.y);
   }
-  std::vector<double> lines;
-  for (const auto& rule : across) lines.push_back(rule.at);
+  // The plot's edge cuts a grid line on it in half; the middle of what is left is not its place.
+  std::vector<double> thickness, lines;
+  for (const auto& rule : across) thickness.push_back(rule.thickness);
+  std::sort(thickness.begin(), thickness.end());
+  for (const auto& rule : across)
+    if (rule.thickness > 0.75 * thickness[thickness.size() / 2]) lines.push_back(rule.at);
   return calibrate(axis, places_of(axis, along, lines, 1.0 / page.reduction(), page.angle() != 0),
                    fmt::format("{}: axes.{}", where, is_x ? "x" : "y"));
 }

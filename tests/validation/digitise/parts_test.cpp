@@ -320,6 +320,9 @@ TEST(Doubt, WhatLooksLikeAMarkerAndWasNotTaken) {
   rest.coverage(cv::Rect(150, 20, 14, 14)).setTo(1);  // one of them
   ASSERT_EQ(missed_markers(rest, {marker}).size(), 1U);
   EXPECT_NEAR(missed_markers(rest, {marker})[0].x, 157, 1);
+  rest.coverage(cv::Rect(167, 18, 6, 16)).setTo(1);  // a letter beside it: it is one too
+  EXPECT_TRUE(missed_markers(rest, {marker}).empty());
+  rest.coverage(cv::Rect(167, 18, 6, 16)).setTo(0);
   rest.coverage(cv::Rect(150, 20, 14, 14)).setTo(0);
   // Three of another shape.
   for (const int x : {20, 50, 80})
