@@ -53,9 +53,10 @@ std::vector<cv::Point2d> missed_markers(const InkMap& rest,
   std::vector<cv::Point2d> places;
   for (int i = 1; i < n; ++i) {
     const auto& box = boxes[static_cast<std::size_t>(i)];
-    if (std::any_of(templates.begin(), templates.end(), [&](const Template& marker) {
-          return of_size(box, ink[i], marker) && resembles(rest, box, marker);
-        }) &&
+    if (std::any_of(templates.begin(), templates.end(),
+                    [&](const Template& marker) {
+                      return of_size(box, ink[i], marker) && resembles(rest, box, marker);
+                    }) &&
         !in_a_word(box, boxes))
       places.push_back(middle_of(box));
   }

@@ -10,7 +10,7 @@ namespace {
 constexpr double step = 0.5;  // between the samples of a section [px]
 
 struct Section {
-  double t = 0;  ///< along the line, from the passage
+  double t = 0;                ///< along the line, from the passage
   double middle = 0, ink = 0;  ///< no ink: paper
 };
 

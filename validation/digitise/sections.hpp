@@ -34,6 +34,6 @@ struct PlaceOnLine {
 /// Sections that meet an unknown pixel or hold other ink do not count; nothing where too few are
 /// left.
 std::optional<PlaceOnLine> place_across(const InkMap& map, const Passage& near, double stroke,
-                                  const Thickness& thickness);
+                                        const Thickness& thickness);
 
 }  // namespace bedscope::digitise

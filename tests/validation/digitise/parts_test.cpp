@@ -7,6 +7,7 @@
 
 #include "readers/error.hpp"
 #include "validation/digitise/calibration.hpp"
+#include "validation/digitise/clear.hpp"
 #include "validation/digitise/doubt.hpp"
 #include "validation/digitise/lines.hpp"
 #include "validation/digitise/page.hpp"
@@ -250,6 +251,18 @@ InkMap dashed_line(double x, double slope, double width, double dash, double gap
   cv::resize(canvas, canvas, {columns, rows}, 0, 0, cv::INTER_AREA);
   canvas.convertTo(coverage, CV_32F, 1 / 255.0);
   return {coverage, cv::Mat::zeros(rows, columns, CV_8U)};
+}
+
+TEST(Clear, DashedRulesAreTakenAwayAndMarkersAtOneHeightAreNot) {
+  InkMap map{cv::Mat::zeros(200, 495, CV_32F), cv::Mat::zeros(200, 495, CV_8U)};
+  for (int x = 0; x < 495; x += 9) map.coverage(cv::Rect(x, 150, 6, 2)).setTo(0.3F);
+  // In each sixteenth of the width one marker; between two of them up to 40 pixels of paper.
+  for (int x = 10; x < 480; x += 30)
+    map.coverage(cv::Rect(x + (x / 30 % 2) * 10, 60, 14, 14)).setTo(0.9F);
+  const double markers = cv::sum(map.coverage.rowRange(0, 140))[0];
+  clear_rules(map);
+  EXPECT_DOUBLE_EQ(cv::sum(map.coverage.rowRange(0, 140))[0], markers);
+  EXPECT_EQ(cv::sum(map.coverage.rowRange(140, 200))[0], 0);
 }
 
 TEST(Lines, DashesAndDotsOfSteepLinesAreReadWhereTheirEndsDoNotShift) {
