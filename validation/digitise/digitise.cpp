@@ -71,19 +71,24 @@ struct Upright {
 
 /// The picture made upright: by the angle that the file gives, or that the calibration points show
 /// (the picture itself where they do not tell; none where it may be that of their pixels), made
-/// finer by the straight lines in the picture.
+/// finer by the straight lines in the picture. Lines that contradict the points are data: they may
+/// differ by three uncertainties of the points and by what a pixel over 500 is.
 Upright upright(const cv::Mat& picture, const Figure& figure) {
   const auto box = box_of_points(figure, Page(picture, 0));
   const double stroke =
       stroke_width(ink_of(picture, paper_of(picture, {0, 0, picture.cols, picture.rows})));
   const int reduction = reduction_for(std::max(box.width, box.height), stroke);
   if (figure.rotation) return {{picture, *figure.rotation, reduction}};
-  auto [angle, u] = angle_of_points(figure);
-  if (std::isnan(angle)) angle = angle_of_ink(picture);
-  if (std::abs(angle) < 3 * u) angle = u = 0;
+  const auto points = angle_of_points(figure);
+  const bool told = !std::isnan(points.angle);
+  const double radian = 180 / std::numbers::pi;
+  const double shown = told ? points.angle : angle_of_ink(picture);
+  const double allowed = told ? std::max(3 * points.u, radian / 500) : 0.5;
+  const double angle = std::abs(shown) < 3 * points.u ? 0 : shown;
   Page page(picture, angle, reduction);
   const auto rest = lean_of(page, box_of_points(figure, page));
-  if (!rest || std::abs(*rest) > 0.5) return {page, u * std::numbers::pi / 180};
+  if (!rest || std::abs(angle + *rest - shown) > allowed)
+    return {page, angle != 0 ? points.u / radian : 0};
   if (std::abs(*rest) < 0.01) return {page};
   return {{picture, angle + *rest, reduction}};
 }

@@ -306,6 +306,10 @@ TEST(Page, PointsOffByTheirPixelsDoNotTurnAnUprightPicture) {
   cv::ellipse(picture, {400, 400}, {250, 250}, 0, 180, 360, cv::Scalar(0, 0, 255), 3, cv::LINE_AA);
   EXPECT_EQ(digitise(picture, false, figure, "f").angle, 0);
   const auto straight = digitise(picture, false, figure, "f").series[0].points;
+  // Nor does a curve that is nearly straight and level.
+  cv::Mat flat(500, 800, CV_8UC3, cv::Scalar::all(255));
+  cv::line(flat, {150, 300}, {650, 304}, cv::Scalar(0, 0, 255), 3, cv::LINE_AA);
+  EXPECT_EQ(digitise(flat, false, figure, "f").angle, 0);
   // Twelve pixels are no pixel's error; the angle's own is that of points far from the axes.
   figure.x.points[1].pixel.y = 388;
   figure.y.points[1].pixel.x = 93;
