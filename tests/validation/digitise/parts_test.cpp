@@ -295,27 +295,28 @@ TEST(Lines, OtherInkOfTheSameColourDoesNotMoveThePoints) {
 
 TEST(Page, PointsOffByTheirPixelsDoNotTurnAnUprightPicture) {
   Figure figure;
-  figure.x = axis({{{100, 400}, 0}, {{700, 401}, 1}});  // 0.1 degrees
-  figure.y = axis({{{100, 400}, 0}, {{100, 50}, 1}});
+  figure.x = axis({{{50, 200}, 0}, {{350, 201}, 1}});  // 0.2 degrees
+  figure.y = axis({{{50, 200}, 0}, {{50, 50}, 1}});
   SeriesSpec series;
   series.name = "a";
   series.kind = Kind::line;
   series.colour = {0, 0, 255};
   figure.series = {series};
-  cv::Mat picture(500, 800, CV_8UC3, cv::Scalar::all(255));
-  cv::ellipse(picture, {400, 400}, {250, 250}, 0, 180, 360, cv::Scalar(0, 0, 255), 3, cv::LINE_AA);
-  EXPECT_EQ(digitise(picture, false, figure, "f").angle, 0);
-  const auto straight = digitise(picture, false, figure, "f").series[0].points;
+  const cv::Mat paper(250, 400, CV_8UC3, cv::Scalar::all(255));
   // Nor does a curve that is nearly straight and level.
-  cv::Mat flat(500, 800, CV_8UC3, cv::Scalar::all(255));
-  cv::line(flat, {150, 300}, {650, 304}, cv::Scalar(0, 0, 255), 3, cv::LINE_AA);
+  cv::Mat flat = paper.clone();
+  cv::line(flat, {75, 152}, {325, 150}, cv::Scalar(0, 0, 255), 3, cv::LINE_AA);
   EXPECT_EQ(digitise(flat, false, figure, "f").angle, 0);
-  // Twelve pixels are no pixel's error; the angle's own is that of points far from the axes.
-  figure.x.points[1].pixel.y = 388;
-  figure.y.points[1].pixel.x = 93;
+  cv::Mat picture = paper.clone();
+  cv::line(picture, {75, 190}, {325, 75}, cv::Scalar(0, 0, 255), 3, cv::LINE_AA);
+  const auto straight = digitise(picture, false, figure, "f");
+  EXPECT_EQ(straight.angle, 0);
+  // Six pixels are no pixel's error; the angle's own is that of points far from the axes.
+  figure.x.points[1].pixel.y = 194;
+  figure.y.points[1].pixel.x = 47;
   const auto found = digitise(picture, false, figure, "f");
-  EXPECT_NEAR(found.angle, std::atan2(12, 600) * 180 / M_PI, 0.02);
-  EXPECT_GT(found.series[0].points[100].x_u, straight[100].x_u);
+  EXPECT_NEAR(found.angle, std::atan2(6, 300) * 180 / M_PI, 0.02);
+  EXPECT_GT(found.series[0].points.back().x_u, straight.series[0].points.back().x_u);
 }
 
 TEST(Doubt, AMarkerThatFitsMuchWorseThanItsSeries) {
