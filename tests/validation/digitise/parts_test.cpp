@@ -305,7 +305,7 @@ TEST(Page, PointsOffByTheirPixelsDoNotTurnAnUprightPicture) {
   const cv::Mat paper(250, 400, CV_8UC3, cv::Scalar::all(255));
   // Nor does a curve that is nearly straight and level.
   cv::Mat flat = paper.clone();
-  cv::line(flat, {75, 152}, {325, 150}, cv::Scalar(0, 0, 255), 3, cv::LINE_AA);
+  cv::line(flat, {75, 152}, {325, 150}, cv::Scalar(0, 0, 255), 1, cv::LINE_AA);
   EXPECT_EQ(digitise(flat, false, figure, "f").angle, 0);
   cv::Mat picture = paper.clone();
   cv::line(picture, {75, 190}, {325, 75}, cv::Scalar(0, 0, 255), 3, cv::LINE_AA);
@@ -316,7 +316,7 @@ TEST(Page, PointsOffByTheirPixelsDoNotTurnAnUprightPicture) {
   figure.y.points[1].pixel.x = 47;
   const auto found = digitise(picture, false, figure, "f");
   EXPECT_NEAR(found.angle, std::atan2(6, 300) * 180 / M_PI, 0.02);
-  EXPECT_GT(found.series[0].points.back().x_u, straight.series[0].points.back().x_u);
+  EXPECT_GT(found.series[0].points.back().x_u, 1.08 * straight.series[0].points.back().x_u);
 }
 
 TEST(Doubt, AMarkerThatFitsMuchWorseThanItsSeries) {
