@@ -31,6 +31,15 @@ cv::Point2d longest(const AxisSpec& axis) {
   return best;
 }
 
+bool in_whole_pixels(const AxisSpec& axis) {
+  return std::all_of(axis.points.begin(), axis.points.end(), [](const auto& point) {
+    return point.pixel.x == std::round(point.pixel.x) && point.pixel.y == std::round(point.pixel.y);
+  });
+}
+
+/// The standard uncertainty of a point's pixel as given.
+double picked(const AxisSpec& axis) { return in_whole_pixels(axis) ? 1 / std::sqrt(3.0) : 0.1; }
+
 }  // namespace
 
 double Calibration::value(double pixel) const {
@@ -57,14 +66,12 @@ double Calibration::uncertainty(double pixel, double u) const {
 
 std::vector<Place> places_of(const AxisSpec& axis, const std::vector<double>& along,
                              const std::vector<double>& lines, double pixel, bool turned) {
-  const bool whole = std::all_of(axis.points.begin(), axis.points.end(), [](const auto& point) {
-    return point.pixel.x == std::round(point.pixel.x) && point.pixel.y == std::round(point.pixel.y);
-  });
+  const bool whole = in_whole_pixels(axis);
   std::vector<Place> places;
   for (const double at : along) {
     const auto line = whole ? meant(at, lines, pixel) : std::nullopt;
     if (!line) {
-      places.push_back({at, pixel * (whole ? 1 / std::sqrt(3.0) : 0.1)});
+      places.push_back({at, pixel * picked(axis)});
       continue;
     }
     const double off_edge = std::abs(*line / pixel - std::round(*line / pixel));
@@ -118,7 +125,7 @@ Calibration calibrate(const AxisSpec& axis, const std::vector<Place>& places,
   return result;
 }
 
-double angle_of_points(const Figure& figure) {
+Angle angle_of_points(const Figure& figure) {
   auto along_x = longest(figure.x), along_y = longest(figure.y);
   if (along_x.x < 0) along_x = -along_x;
   if (along_y.y > 0) along_y = -along_y;
@@ -126,9 +133,11 @@ double angle_of_points(const Figure& figure) {
   const double from_x = std::atan2(-along_x.y, along_x.x) * to_degrees;
   const double from_y = std::atan2(-along_y.x, -along_y.y) * to_degrees;
   const double wx = along_x.dot(along_x), wy = along_y.dot(along_y);
-  if (std::abs(from_x) > 20 || std::abs(from_y) > 20) return nan;
-  if (std::abs(from_x - from_y) > 0.7 + 115 / std::sqrt(std::min(wx, wy))) return nan;
-  return (wx * from_x + wy * from_y) / (wx + wy);
+  if (std::abs(from_x) > 20 || std::abs(from_y) > 20) return {};
+  if (std::abs(from_x - from_y) > 0.7 + 115 / std::sqrt(std::min(wx, wy))) return {};
+  // Of each direction sqrt(2) picked / length; the weights are those of the least uncertainty.
+  const double u = std::max(picked(figure.x), picked(figure.y)) * std::sqrt(2 / (wx + wy));
+  return {(wx * from_x + wy * from_y) / (wx + wy), u * to_degrees};
 }
 
 }  // namespace bedscope::digitise

@@ -46,8 +46,13 @@ std::vector<Place> places_of(const AxisSpec& axis, const std::vector<double>& al
 Calibration calibrate(const AxisSpec& axis, const std::vector<Place>& places,
                       const std::string& where);
 
-/// The angle of the scan that the calibration points show [degrees anticlockwise]; NaN where the
-/// points of an axis do not lie along one line of the axes' directions.
-double angle_of_points(const Figure& figure);
+/// Of a scan [degrees anticlockwise], with its standard uncertainty.
+struct Angle {
+  double angle = nan, u = 0;
+};
+
+/// The angle that the calibration points show; NaN where the points of an axis do not lie along one
+/// line of the axes' directions.
+Angle angle_of_points(const Figure& figure);
 
 }  // namespace bedscope::digitise

@@ -7,9 +7,11 @@
 namespace bedscope::digitise {
 namespace {
 
-/// A row is part of a rule where ink is spread over all of it: in each of 16 pieces.
+/// A row is part of a rule where ink is spread over all of it: in all but a sixteenth of 48 pieces
+/// (of 8 pixels at least), which are longer than the gaps of dashes and shorter than those between
+/// many markers at one height.
 bool spread(const cv::Mat& row, double least) {
-  constexpr int pieces = 16;
+  const int pieces = std::clamp(row.cols / 8, 1, 48);
   int with = 0;
   double share = 0;
   for (int piece = 0; piece < pieces; ++piece) {
@@ -19,7 +21,7 @@ bool spread(const cv::Mat& row, double least) {
     with += inked > 0.08 * (to - from);
     share += static_cast<double>(inked) / (to - from) / pieces;
   }
-  return with >= pieces - 1 && share > least;
+  return with >= pieces - pieces / 16 && share > least;
 }
 
 void clear_row(cv::Mat coverage, cv::Mat unknown) {

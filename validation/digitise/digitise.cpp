@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <opencv2/imgproc.hpp>
 
 #include "readers/error.hpp"
@@ -51,22 +52,45 @@ double shorter_side(const cv::Rect2d& box) {
 
 double thickest(const cv::Rect2d& box) { return std::max(5.0, 0.02 * shorter_side(box)); }
 
+/// The angle by which the long straight lines lean; where there are none but those of the plot's
+/// grid in the colour of the page, of these. Nothing where there are no such lines.
+std::optional<double> lean_of(const Page& page, const cv::Rect2d& plot) {
+  const double least = 0.5 * shorter_side(plot);
+  const auto lines = angle_of(find_rules(ink_of_page(page, plot), least, thickest(plot)));
+  const cv::Rect inside = cv::Rect(plot) & cv::Rect({0, 0}, page.image().size());
+  if (lines || inside.empty()) return lines;
+  const cv::Mat part = page.image()(inside);
+  return angle_of(
+      find_rules(ink_of(part, paper_of(part, {{0, 0}, part.size()})), least, thickest(plot)));
+}
+
+struct Upright {
+  Page page;
+  double u_angle = 0;  ///< of the angle by which it was turned [rad]
+};
+
 /// The picture made upright: by the angle that the file gives, or that the calibration points show
-/// (the picture itself where they do not tell), made finer by the straight lines in the picture.
-Page upright(const cv::Mat& picture, const Figure& figure) {
+/// (the picture itself where they do not tell; none where it may be that of their pixels), made
+/// finer by the straight lines in the picture. Lines that contradict the points are data: they may
+/// differ by three uncertainties of the points and by what a pixel over 500 is.
+Upright upright(const cv::Mat& picture, const Figure& figure) {
   const auto box = box_of_points(figure, Page(picture, 0));
   const double stroke =
       stroke_width(ink_of(picture, paper_of(picture, {0, 0, picture.cols, picture.rows})));
   const int reduction = reduction_for(std::max(box.width, box.height), stroke);
-  if (figure.rotation) return {picture, *figure.rotation, reduction};
-  double angle = angle_of_points(figure);
-  if (std::isnan(angle)) angle = angle_of_ink(picture);
+  if (figure.rotation) return {{picture, *figure.rotation, reduction}};
+  const auto points = angle_of_points(figure);
+  const bool told = !std::isnan(points.angle);
+  const double radian = 180 / std::numbers::pi;
+  const double shown = told ? points.angle : angle_of_ink(picture);
+  const double allowed = told ? std::max(3 * points.u, radian / 500) : 0.5;
+  const double angle = std::abs(shown) < 3 * points.u ? 0 : shown;
   Page page(picture, angle, reduction);
-  const auto inside = box_of_points(figure, page);
-  const auto rest =
-      angle_of(find_rules(ink_of_page(page, inside), 0.5 * shorter_side(inside), thickest(inside)));
-  if (!rest || std::abs(*rest) < 0.01 || std::abs(*rest) > 0.5) return page;
-  return {picture, angle + *rest, reduction};
+  const auto rest = lean_of(page, box_of_points(figure, page));
+  if (!rest || std::abs(angle + *rest - shown) > allowed)
+    return {page, angle != 0 ? points.u / radian : 0};
+  if (std::abs(*rest) < 0.01) return {page};
+  return {{picture, angle + *rest, reduction}};
 }
 
 /// `across`: the long lines across the axis.
@@ -77,8 +101,12 @@ Calibration calibration_of(const AxisSpec& axis, const Page& page, const std::ve
     const auto at = page.to_page(point.pixel);
     along.push_back(is_x ? at.x : at.y);
   }
-  std::vector<double> lines;
-  for (const auto& rule : across) lines.push_back(rule.at);
+  // The plot's edge cuts a grid line on it in half; the middle of what is left is not its place.
+  std::vector<double> thickness, lines;
+  for (const auto& rule : across) thickness.push_back(rule.thickness);
+  std::sort(thickness.begin(), thickness.end());
+  for (const auto& rule : across)
+    if (rule.thickness > 0.75 * thickness[thickness.size() / 2]) lines.push_back(rule.at);
   return calibrate(axis, places_of(axis, along, lines, 1.0 / page.reduction(), page.angle() != 0),
                    fmt::format("{}: axes.{}", where, is_x ? "x" : "y"));
 }
@@ -93,13 +121,17 @@ cv::Rect whole_pixels(const cv::Rect2d& box, cv::Size page) {
 class Digitiser {
  public:
   Digitiser(const cv::Mat& picture, bool lossy, const Figure& figure, const std::string& where)
-      : figure_(figure), where_(where), page_(upright(picture, figure)) {
+      : figure_(figure), where_(where), upright_(upright(picture, figure)) {
     found_.angle = page_.angle();
     const auto inside = box_of_points(figure_, page_);
     const auto rules =
         find_rules(ink_of_page(page_, inside), 0.4 * shorter_side(inside), thickest(inside));
     x_ = calibration_of(figure.x, page_, rules.columns, true, where);
     y_ = calibration_of(figure.y, page_, rules.rows, false, where);
+    for (const auto& point : figure.x.points)
+      row_of_x_ += page_.to_page(point.pixel).y / static_cast<double>(figure.x.points.size());
+    for (const auto& point : figure.y.points)
+      column_of_y_ += page_.to_page(point.pixel).x / static_cast<double>(figure.y.points.size());
     find_area(inside, rules);
     separate_inks(lossy);
     find_left_out();
@@ -226,6 +258,7 @@ class Digitiser {
       if (const auto unasked = markers_on_line(map)) {
         templates.push_back(*unasked);
         markers = find_markers(map, templates);
+        complete(markers[0], page_.reduction(), page_.angle() != 0, colours_.lossy);
       }
     const InkMap whole{map.coverage, map.unknown.clone()};
     cover_markers(map, templates, markers);
@@ -279,8 +312,23 @@ class Digitiser {
     return places.size() > 3 ? text + " ..." : text;
   }
 
+  /// The shapes of an ink: those that are named where each of several series names its own.
+  std::vector<Shape> shapes_among(const std::vector<std::size_t>& members) const {
+    std::vector<Shape> named;
+    int series = 0;
+    for (const auto i : members) {
+      if (figure_.series[i].kind != Kind::markers) continue;
+      if (!figure_.series[i].shape) return candidates(std::nullopt);
+      ++series;
+      for (const auto& shape : candidates(figure_.series[i].shape)) named.push_back(shape);
+    }
+    return series > 1 ? named : candidates(std::nullopt);
+  }
+
   MarkerQuery query_of(const SeriesSpec& series, int ink) const {
-    MarkerQuery query{series.shape, {}, {}};
+    MarkerQuery query;
+    query.shape = series.shape;
+    query.among = shapes_among(members_.at(ink));
     if (!series.sample) return query;
     const cv::Rect2d wanted = *series.sample;
     const cv::Rect box = whole_pixels(page_.to_page(wanted), page_.image().size());
@@ -305,8 +353,11 @@ class Digitiser {
     point.u_pixel[1] = u_y;
     point.x = x_.value(at.x);
     point.y = y_.value(at.y);
-    point.x_u = x_.uncertainty(at.x, u_x);
-    point.y_u = y_.uncertainty(at.y, u_y);
+    // A page that leans moves what is far from an axis' points along it.
+    const double lean_x = upright_.u_angle * (at.y - row_of_x_),
+                 lean_y = upright_.u_angle * (at.x - column_of_y_);
+    point.x_u = x_.uncertainty(at.x, std::hypot(u_x, lean_x));
+    point.y_u = y_.uncertainty(at.y, std::hypot(u_y, lean_y));
     return point;
   }
 
@@ -379,8 +430,10 @@ class Digitiser {
 
   const Figure& figure_;
   const std::string& where_;
-  Page page_;
+  Upright upright_;
+  const Page& page_ = upright_.page;
   Calibration x_, y_;
+  double row_of_x_ = 0, column_of_y_ = 0;  ///< where the axes' points are
   cv::Rect area_;
   Colours colours_;
   std::map<int, std::vector<std::size_t>> members_;  ///< the series of an ink

@@ -20,6 +20,16 @@ cv::Point2d middle_of(const cv::Rect& box) {
   return {box.x + box.width / 2.0, box.y + box.height / 2.0};
 }
 
+/// Letters stand side by side, about as high as each other, with gaps narrower than half that.
+bool in_a_word(const cv::Rect& box, const std::vector<cv::Rect>& boxes) {
+  return std::any_of(boxes.begin(), boxes.end(), [&](const cv::Rect& other) {
+    const int gap = std::max(other.x - box.br().x, box.x - other.br().x);
+    const int both = std::min(other.br().y, box.br().y) - std::max(other.y, box.y);
+    const auto [low, high] = std::minmax(other.height, box.height);
+    return gap >= 0 && gap < box.height / 2 && both > 0.5 * low && 2 * low > high;
+  });
+}
+
 /// Half of what a marker has to be.
 bool resembles(const InkMap& rest, const cv::Rect& box, const Template& marker) {
   const auto found = fit(marker, rest, middle_of(box));
@@ -36,13 +46,18 @@ std::vector<cv::Point2d> missed_markers(const InkMap& rest,
   std::vector<double> ink(n);
   for (int y = 0; y < mask.rows; ++y)
     for (int x = 0; x < mask.cols; ++x) ink[labels.at<int>(y, x)] += rest.coverage.at<float>(y, x);
+  std::vector<cv::Rect> boxes;
+  for (int i = 0; i < n; ++i)
+    boxes.emplace_back(stats.at<int>(i, cv::CC_STAT_LEFT), stats.at<int>(i, cv::CC_STAT_TOP),
+                       stats.at<int>(i, cv::CC_STAT_WIDTH), stats.at<int>(i, cv::CC_STAT_HEIGHT));
   std::vector<cv::Point2d> places;
   for (int i = 1; i < n; ++i) {
-    const cv::Rect box(stats.at<int>(i, cv::CC_STAT_LEFT), stats.at<int>(i, cv::CC_STAT_TOP),
-                       stats.at<int>(i, cv::CC_STAT_WIDTH), stats.at<int>(i, cv::CC_STAT_HEIGHT));
-    if (std::any_of(templates.begin(), templates.end(), [&](const Template& marker) {
-          return of_size(box, ink[i], marker) && resembles(rest, box, marker);
-        }))
+    const auto& box = boxes[static_cast<std::size_t>(i)];
+    if (std::any_of(templates.begin(), templates.end(),
+                    [&](const Template& marker) {
+                      return of_size(box, ink[i], marker) && resembles(rest, box, marker);
+                    }) &&
+        !in_a_word(box, boxes))
       places.push_back(middle_of(box));
   }
   if (!places.empty()) return places;
@@ -53,7 +68,8 @@ std::vector<cv::Point2d> missed_markers(const InkMap& rest,
              std::min(marker.box.width, marker.box.height) / 2;
     });
   });
-  const auto group = best_group(pieces, rest.coverage, candidates(std::nullopt), 0.88);
+  const auto all = candidates(std::nullopt);
+  const auto group = best_group(pieces, rest.coverage, all, all, 0.88);
   if (group && group->pieces.size() >= 3)
     for (const auto& piece : group->pieces) places.push_back(middle_of(piece.box));
   return places;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the markers of an ink look like.
 #include <algorithm>
+#include <opencv2/imgproc.hpp>
 
 #include "validation/digitise/markers.hpp"
 #include "validation/digitise/pieces.hpp"
@@ -34,6 +35,14 @@ double ink_of_markers(const InkMap& map, const Template& marker) {
   return cv::sum(marker.ink)[0] * static_cast<double>(find_markers(map, {marker})[0].size());
 }
 
+/// Whether ink goes on beside a marker: a line or a bar leaves it.
+bool goes_on(const InkMap& map, const Template& marker, cv::Point2d origin) {
+  cv::Mat grown;
+  cv::dilate(marker.inside, grown, cv::Mat::ones(3, 3, CV_8U));
+  const cv::Mat ink = window(map.coverage, origin, grown.size(), 0) > 0.3F;
+  return cv::countNonZero(ink & (grown - marker.inside)) > 0;
+}
+
 }  // namespace
 
 std::optional<Template> learn(const InkMap& map, const MarkerQuery& query) {
@@ -51,7 +60,7 @@ std::optional<Template> learn(const InkMap& map, const MarkerQuery& query) {
   const double all = cv::sum(map.coverage)[0];
   constexpr double much = 0.35;  // of the ink: what holds as much can only be the markers
   const auto pieces = pieces_of(mask, map);
-  const auto alone = best_group(pieces, map.coverage, shapes, 0.8);
+  const auto alone = best_group(pieces, map.coverage, query.among, shapes, 0.8);
   if (alone && (alone->ink > much * all ||
                 (alone->pieces.size() >= 3 && (query.shape || alone->resemblance > 0.88))))
     return template_of(*alone, map);
@@ -66,7 +75,7 @@ std::optional<Template> learn(const InkMap& map, const MarkerQuery& query) {
   if (drawn) return drawn;
   if (alone) return template_of(*alone, map);
   // A shape without a name, or one that does not look like its name.
-  if (auto group = best_group(pieces, map.coverage, candidates(std::nullopt), 0.0)) {
+  if (auto group = best_group(pieces, map.coverage, query.among, query.among, 0.0)) {
     if (query.shape) group->shape = shapes.front();
     return template_of(*group, map);
   }
@@ -79,8 +88,12 @@ std::optional<Template> markers_on_line(const InkMap& map) {
   if (!marker || std::min(marker->box.width, marker->box.height) < 2.0 * stroke) return {};
   const auto found = find_markers(map, {*marker});
   std::vector<double> scores;
-  for (const auto& one : found[0]) scores.push_back(one.fit.score);
-  if (scores.size() < 4) return {};
+  double on_line = 0;
+  for (const auto& one : found[0]) {
+    scores.push_back(one.fit.score);
+    on_line += goes_on(map, *marker, one.fit.origin) ? 1 : 0;
+  }
+  if (scores.size() < 4 || on_line < 0.5 * static_cast<double>(scores.size())) return {};
   std::sort(scores.begin(), scores.end());
   const double ink = cv::sum(marker->ink)[0] * static_cast<double>(scores.size());
   if (scores[scores.size() / 2] < 0.75 || ink < 0.05 * cv::sum(map.coverage)[0]) return {};

@@ -2,10 +2,10 @@
 #include "validation/digitise/lines.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "validation/digitise/sections.hpp"
 #include "validation/digitise/stroke.hpp"
 
 namespace bedscope::digitise {
@@ -106,7 +106,7 @@ Path best_path(const InkMap& map, const std::vector<LinePoint>& through,
           const double apart = std::max({0.0, run.top - other.bottom, other.top - run.bottom});
           double cost;
           if (back == 1) {
-            cost = apart <= 0 ? 0 : 0.6 * apart;
+            cost = 0.25 * apart;  // down a steep part a gap costs as much as along
           } else {
             const double off = std::abs(run.middle - other.middle - other.slope * back);
             const int row =
@@ -159,139 +159,86 @@ Path whole_path(const InkMap& map, const std::vector<LinePoint>& through) {
   return whole;
 }
 
-/// Runs of one unbroken piece of the line: all of it, or a dash.
-struct Dash {
-  std::size_t from = 0, to = 0;
-  double mass = 0, x = 0, y = 0;  ///< its ink and the centroid of that
-  bool whole = true;
-};
-
-std::vector<Dash> dashes_of(const std::vector<Run>& runs) {
-  std::vector<Dash> dashes;
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    if (runs[i].u > 0) continue;  // a marker
-    const bool joined = !dashes.empty() && dashes.back().to == i &&
-                        runs[i].column == runs[i - 1].column + 1 &&
-                        runs[i].top <= runs[i - 1].bottom && runs[i].bottom >= runs[i - 1].top;
-    if (!joined) dashes.push_back({i, i});
-    auto& dash = dashes.back();
-    dash.to = i + 1;
-    dash.mass += runs[i].mass;
-    dash.x += runs[i].mass * (runs[i].column + 0.5);
-    dash.y += runs[i].mass * runs[i].middle;
-    dash.whole = dash.whole && !runs[i].cut;
-  }
-  for (auto& dash : dashes) {
-    dash.x /= dash.mass;
-    dash.y /= dash.mass;
-  }
-  return dashes;
-}
-
-/// A dash ends across the line, not along a column: where the line is steep, the middle of a run
-/// within a stroke's width of the end is off the line by up to half of that. The runs at the ends
-/// count as cut; a dash that has hardly more than ends, or a dot, becomes one run at its centroid,
-/// which by symmetry lies on the line.
-std::vector<Run> clear_of_ends(const std::vector<Run>& runs, double stroke) {
-  const auto width = static_cast<std::size_t>(cvCeil(stroke));
-  const auto dashes = dashes_of(runs);
-  std::vector<Run> clear;
-  for (const auto& run : runs)
-    if (run.u > 0) clear.push_back(run);
-  for (std::size_t k = 0; k < dashes.size(); ++k) {
-    const auto& dash = dashes[k];
-    std::vector<Run> own(runs.begin() + static_cast<std::ptrdiff_t>(dash.from),
-                         runs.begin() + static_cast<std::ptrdiff_t>(dash.to));
-    const auto& before = k > 0 ? dashes[k - 1] : dash;
-    const auto& after = k + 1 < dashes.size() ? dashes[k + 1] : dash;
-    const double overall = after.x > before.x ? (after.y - before.y) / (after.x - before.x) : 0;
-    std::array<std::size_t, 2> ends{};  // how many runs they have
-    for (auto& end : ends) {
-      const double slope = own.size() >= 4 * width ? (own[2 * width].middle - own[width].middle) /
-                                                         static_cast<double>(width)
-                                                   : overall;
-      end = static_cast<std::size_t>(cvCeil(stroke * std::abs(slope) / std::hypot(1, slope)));
-      std::reverse(own.begin(), own.end());
-    }
-    if (own.size() >= ends[0] + ends[1] + 2 * width) {
-      for (std::size_t i = 0; i < ends[0]; ++i) own[i].cut = true;
-      for (std::size_t i = 0; i < ends[1]; ++i) own[own.size() - 1 - i].cut = true;
-    } else if (dash.whole) {
-      Run centre = own[own.size() / 2];
-      centre.column = cvFloor(dash.x);
-      centre.middle = dash.y + overall * (centre.column + 0.5 - dash.x);
-      own = {centre};
-    } else {
-      for (auto& run : own) run.cut = true;
-    }
-    clear.insert(clear.end(), own.begin(), own.end());
-  }
-  std::sort(clear.begin(), clear.end(),
-            [](const Run& a, const Run& b) { return a.column < b.column; });
-  return clear;
-}
-
-/// A parabola through the runs around `centre` that are not cut: the line's place in its column and
-/// how far the runs are off it, across the line.
-std::optional<LinePoint> local_place(const std::vector<Run>& runs, std::size_t centre,
-                                     double stroke) {
-  const int reach = std::max(2, cvRound(stroke));
-  if (runs[centre].u > 0)
-    return LinePoint{{runs[centre].column + 0.5, runs[centre].middle}, runs[centre].u};
-  cv::Matx33d normal = cv::Matx33d::zeros();
-  cv::Vec3d right(0, 0, 0);
-  std::vector<std::pair<double, double>> used;
-  const auto add = [&](const Run& run) {
-    if (run.cut || run.u > 0) return;
-    const double t = run.column - runs[centre].column;
-    const cv::Vec3d row(1, t, t * t);
-    normal += row * row.t();
-    right += row * run.middle;
-    used.emplace_back(t, run.middle);
-  };
-  for (std::size_t i = centre; i < runs.size() && runs[i].column - runs[centre].column <= reach;
-       ++i)
-    add(runs[i]);
-  for (std::size_t i = centre; i-- > 0 && runs[centre].column - runs[i].column <= reach;)
-    add(runs[i]);
-  const double x = runs[centre].column + 0.5;
-  if (used.size() < 4) return LinePoint{{x, runs[centre].middle}, 0.35};
-  const cv::Vec3d c = normal.inv(cv::DECOMP_SVD) * right;
-  double squares = 0;
-  for (const auto& [t, y] : used) squares += std::pow(y - c[0] - c[1] * t - c[2] * t * t, 2);
-  const double rms = std::sqrt(squares / std::max(1.0, static_cast<double>(used.size()) - 3));
-  const double cosine = 1 / std::hypot(1, c[1]);
-  return LinePoint{{x, c[0]}, rms * cosine / std::sqrt(static_cast<double>(used.size()) / 3)};
-}
-
-/// At most `points` places, equally spaced along the path, so that steep parts have theirs.
-TracedLine sample(const Path& path, double stroke, int points) {
-  TracedLine line;
-  const auto runs = clear_of_ends(path.runs, stroke);
-  if (runs.empty()) return line;
+/// How far the path is from its beginning at each run.
+std::vector<double> lengths_along(const std::vector<Run>& runs) {
   std::vector<double> along{0};
   for (std::size_t i = 1; i < runs.size(); ++i)
     along.push_back(along.back() + std::hypot(runs[i].column - runs[i - 1].column,
                                               runs[i].middle - runs[i - 1].middle));
-  const double step = std::max(1.0, along.back() / std::max(1, points - 1));
-  std::size_t next = 0;
-  std::size_t last = runs.size();
-  for (double wanted = 0; wanted < along.back() + 0.5 * step; wanted += step) {
+  return along;
+}
+
+/// Where the path passes at each run, its direction that over three strokes to each side.
+std::vector<Passage> passages_of(const std::vector<Run>& runs, const std::vector<double>& along,
+                                 double stroke) {
+  const double reach = 3 * stroke;
+  std::vector<Passage> passages;
+  std::size_t from = 0, to = 0;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    while (from < i && along[i] - along[from + 1] >= reach) ++from;
+    while (to + 1 < runs.size() && along[to] - along[i] < reach) ++to;
+    const cv::Point2d way(runs[to].column - runs[from].column, runs[to].middle - runs[from].middle);
+    passages.push_back({{runs[i].column + 0.5, runs[i].middle}, way / cv::norm(way)});
+  }
+  return passages;
+}
+
+struct Sample {
+  PlaceOnLine place;
+  bool marker = false;
+};
+
+/// Whether the line as seen before or behind a marker goes through it, within twice its
+/// uncertainty: a line may pass beside the markers that it was fitted to.
+bool on_line(const std::vector<Sample>& samples, std::size_t marker) {
+  const auto& [place, is_marker] = samples[marker];
+  const auto meets = [&](std::size_t i) {
+    const auto& [at, along] = samples[i].place.passage;
+    return std::abs((place.passage.at - at).cross(along)) <= 2 * place.u;
+  };
+  const auto line = [&](std::size_t i) { return !samples[i].marker; };
+  std::size_t before = marker, after = marker;
+  while (before > 0 && !line(before)) --before;
+  while (after + 1 < samples.size() && !line(after)) ++after;
+  return (line(before) && meets(before)) || (line(after) && meets(after));
+}
+
+/// At most `points` places, equally spaced along the path, so that steep parts have theirs.
+TracedLine sample(const InkMap& map, const Path& path, double stroke, int points) {
+  TracedLine line;
+  const auto& runs = path.runs;
+  if (runs.size() < 2) return line;
+  const auto along = lengths_along(runs);
+  const auto passages = passages_of(runs, along, stroke);
+  const auto thickness = thickness_of(map, passages, stroke);
+  const double spacing = std::max(1.0, along.back() / std::max(1, points - 1));
+  std::vector<Sample> samples;
+  std::size_t next = 0, last = runs.size();
+  for (double wanted = 0; wanted < along.back() + 0.5 * spacing; wanted += spacing) {
     while (next + 1 < runs.size() &&
            std::abs(along[next + 1] - wanted) <= std::abs(along[next] - wanted))
       ++next;
-    // The nearest run that is whole.
-    std::size_t chosen = runs.size();
-    double nearest = step;
+    // The nearest run where the line is seen alone, or the marker that stands for it.
+    std::vector<std::size_t> near;
     for (std::size_t j = next > 12 ? next - 12 : 0; j < std::min(runs.size(), next + 13); ++j)
-      if (const double away = std::abs(along[j] - wanted); !runs[j].cut && away < nearest) {
-        nearest = away;
-        chosen = j;
-      }
-    if (chosen == runs.size() || chosen == last) continue;
-    last = chosen;
-    if (const auto place = local_place(runs, chosen, stroke)) line.points.push_back(*place);
+      if (std::abs(along[j] - wanted) < spacing) near.push_back(j);
+    std::stable_sort(near.begin(), near.end(), [&](std::size_t a, std::size_t b) {
+      return std::abs(along[a] - wanted) < std::abs(along[b] - wanted);
+    });
+    for (const auto j : near) {
+      if (j == last) break;
+      const bool marker = runs[j].u > 0;
+      const auto place = marker ? std::optional(PlaceOnLine{passages[j], runs[j].u})
+                                : place_across(map, passages[j], stroke, thickness);
+      if (!place) continue;
+      samples.push_back({*place, marker});
+      last = j;
+      break;
+    }
   }
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    if (!samples[i].marker || on_line(samples, i))
+      line.points.push_back({samples[i].place.passage.at, samples[i].place.u});
   return line;
 }
 
@@ -321,7 +268,8 @@ TracedLine trace_line(const InkMap& whole, const std::vector<LinePoint>& through
   for (auto& point : turned_through) std::swap(point.at.x, point.at.y);
   const auto by_column = whole_path(map, through), by_row = whole_path(turned, turned_through);
   const bool along_x = by_column.mass >= by_row.mass - 0.1 * all;
-  auto line = sample(along_x ? by_column : by_row, stroke, points);
+  auto line =
+      along_x ? sample(map, by_column, stroke, points) : sample(turned, by_row, stroke, points);
   line.along_x = along_x;
   line.explained = all > 0 ? (along_x ? by_column : by_row).mass / all : 0;
   if (!along_x)

@@ -15,6 +15,8 @@ struct MarkerQuery {
   std::optional<Shape> shape;
   cv::Mat sample;                        ///< coverage of a marker the user showed; may be empty
   std::optional<cv::Point2d> reference;  ///< its reference point in the sample [px]
+  /// The shapes that this ink may show: where it has several series and each names its own, these.
+  std::vector<Shape> among = candidates(std::nullopt);
 };
 
 struct Marker {

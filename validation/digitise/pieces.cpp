@@ -66,7 +66,8 @@ std::vector<Piece> pieces_of(const cv::Mat& mask, const InkMap& map) {
 }
 
 std::optional<Group> best_group(const std::vector<Piece>& pieces, const cv::Mat& coverage,
-                                const std::vector<Shape>& shapes, double least) {
+                                const std::vector<Shape>& among, const std::vector<Shape>& shapes,
+                                double least) {
   std::optional<Group> best;
   std::vector<bool> seen(pieces.size());
   for (std::size_t i = 0; i < pieces.size(); ++i) {
@@ -75,7 +76,7 @@ std::optional<Group> best_group(const std::vector<Piece>& pieces, const cv::Mat&
     std::vector<std::pair<Shape, double>> verdicts;
     for (std::size_t j = i; j < pieces.size(); ++j)
       if (alike(pieces[i], pieces[j])) {
-        const auto verdict = recognise(patch_of(coverage, pieces[j]), candidates(std::nullopt));
+        const auto verdict = recognise(patch_of(coverage, pieces[j]), among);
         const auto wanted = std::find_if(shapes.begin(), shapes.end(), [&](const Shape& shape) {
           return shape.outline == verdict.first.outline &&
                  (shape.fill == verdict.first.fill || shape.fill == Fill::any);
@@ -124,7 +125,7 @@ std::optional<Template> on_lines(const InkMap& map, const cv::Mat& mask,
     std::erase_if(pieces, [&](const Piece& piece) {
       return std::min(piece.box.width, piece.box.height) < std::max(5.0, 2.6 * stroke);
     });
-    const auto group = best_group(pieces, cores.coverage, filled, 0.8);
+    const auto group = best_group(pieces, cores.coverage, candidates(std::nullopt), filled, 0.8);
     if (!group || group->pieces.size() < 2) continue;
     const auto marker = template_of(*group, cores);
     // Once more with the whole ink: the opening has rounded the corners.

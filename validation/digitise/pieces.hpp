@@ -26,9 +26,10 @@ struct Group {
 std::vector<Piece> pieces_of(const cv::Mat& mask, const InkMap& map);
 
 /// The group of pieces of one size and shape that most likely are the markers: those that resemble
-/// one of the shapes, and of these the group with most ink.
+/// one of `shapes` more than any other of `among`, and of these the group with most ink.
 std::optional<Group> best_group(const std::vector<Piece>& pieces, const cv::Mat& coverage,
-                                const std::vector<Shape>& shapes, double least);
+                                const std::vector<Shape>& among, const std::vector<Shape>& shapes,
+                                double least);
 
 /// The template of a group: one of them, then the median of all.
 Template template_of(const Group& group, const InkMap& map);

@@ -52,7 +52,8 @@ void complete(std::vector<Marker>& markers, int reduction, bool turned, bool los
 }
 
 void complete(std::vector<LinePoint>& points, bool lossy) {
-  for (auto& point : points) point.u = std::hypot(point.u, 0.08, lossy ? 0.1 : 0.0);
+  for (auto& point : points)
+    point.u = std::hypot(point.u, 1 / 9.0 / std::sqrt(3.0), lossy ? 0.05 : 0.0);
 }
 
 }  // namespace bedscope::digitise

@@ -18,7 +18,8 @@ namespace bedscope::digitise {
 /// was turned or made smaller.
 void complete(std::vector<Marker>& markers, int reduction, bool turned, bool lossy);
 
-/// The same for the points of a line, which programs draw where they are, to a tenth of a pixel.
+/// The same for the points of a line, which programs draw where they are; matplotlib leaves out
+/// points of it that change it by less than a ninth of a pixel.
 void complete(std::vector<LinePoint>& points, bool lossy);
 
 }  // namespace bedscope::digitise

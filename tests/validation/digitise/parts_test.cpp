@@ -7,6 +7,7 @@
 
 #include "readers/error.hpp"
 #include "validation/digitise/calibration.hpp"
+#include "validation/digitise/clear.hpp"
 #include "validation/digitise/doubt.hpp"
 #include "validation/digitise/lines.hpp"
 #include "validation/digitise/page.hpp"
@@ -95,9 +96,12 @@ TEST(Calibration, AngleOfPointsNeedsAxesThatAgree) {
   Figure figure;
   figure.x = axis({{{100, 500}, 0}, {{500, 486}, 1}});
   figure.y = axis({{{100, 500}, 0}, {{86, 100}, 1}});
-  EXPECT_NEAR(angle_of_points(figure), std::atan2(14, 400) * 180 / M_PI, 1e-9);
+  EXPECT_NEAR(angle_of_points(figure).angle, std::atan2(14, 400) * 180 / M_PI, 1e-9);
+  // Pixels picked by eye, uniform within one to each side, at the ends of two lines.
+  const double length = std::hypot(14, 400);
+  EXPECT_NEAR(angle_of_points(figure).u, std::sqrt(1 / 3.0) / length * 180 / M_PI, 1e-9);
   figure.y = axis({{{100, 500}, 0}, {{500, 100}, 1}});  // the far corner for both axes
-  EXPECT_TRUE(std::isnan(angle_of_points(figure)));
+  EXPECT_TRUE(std::isnan(angle_of_points(figure).angle));
 }
 
 TEST(Page, PointsGoThereAndBack) {
@@ -249,8 +253,21 @@ InkMap dashed_line(double x, double slope, double width, double dash, double gap
   return {coverage, cv::Mat::zeros(rows, columns, CV_8U)};
 }
 
+TEST(Clear, DashedRulesAreTakenAwayAndMarkersAtOneHeightAreNot) {
+  InkMap map{cv::Mat::zeros(200, 495, CV_32F), cv::Mat::zeros(200, 495, CV_8U)};
+  for (int x = 0; x < 495; x += 9) map.coverage(cv::Rect(x, 150, 6, 2)).setTo(0.3F);
+  // In each sixteenth of the width one marker; between two of them up to 40 pixels of paper.
+  for (int x = 10; x < 480; x += 30)
+    map.coverage(cv::Rect(x + (x / 30 % 2) * 10, 60, 14, 14)).setTo(0.9F);
+  const double markers = cv::sum(map.coverage.rowRange(0, 140))[0];
+  clear_rules(map);
+  EXPECT_DOUBLE_EQ(cv::sum(map.coverage.rowRange(0, 140))[0], markers);
+  EXPECT_EQ(cv::sum(map.coverage.rowRange(140, 200))[0], 0);
+}
+
 TEST(Lines, DashesAndDotsOfSteepLinesAreReadWhereTheirEndsDoNotShift) {
-  for (const double slope : {0.5, 1.3})
+  // At a slope of 6 the dashes lie above each other, two in a column.
+  for (const double slope : {0.5, 1.3, 6.0})
     for (const auto& [dash, gap] : {std::pair(16.0, 7.0), {3.0, 5.0}}) {
       const auto line = trace_line(dashed_line(20, slope, 3, dash, gap), {}, 200);
       ASSERT_GT(line.points.size(), 8U);
@@ -259,6 +276,47 @@ TEST(Lines, DashesAndDotsOfSteepLinesAreReadWhereTheirEndsDoNotShift) {
         EXPECT_NEAR((point.at.y - 20 - slope * (point.at.x - 20)) / std::hypot(1, slope), 0, 0.15)
             << slope << " " << dash << " " << point.at.x;
     }
+}
+
+TEST(Lines, OtherInkOfTheSameColourDoesNotMoveThePoints) {
+  auto map = dashed_line(20, 0.2, 3, 500, 0);
+  const auto alone = trace_line(map, {}, 200);
+  for (const int x : {60, 100, 140}) {  // bars, and a stroke that grows out of the line
+    map.coverage(cv::Rect(x, 10, 2, 60)).setTo(1);
+    cv::line(map.coverage, {x + 10, cvRound(20 + 0.2 * (x - 10))},
+             {x + 25, cvRound(20 + 0.2 * (x - 10)) + 9}, cv::Scalar(1), 2);
+  }
+  const auto line = trace_line(map, {}, 200);
+  ASSERT_GT(line.points.size(), alone.points.size() / 2);
+  for (const auto& point : line.points)
+    EXPECT_NEAR((point.at.y - 20 - 0.2 * (point.at.x - 20)) / std::hypot(1, 0.2), 0, 0.15)
+        << point.at.x;
+}
+
+TEST(Page, PointsOffByTheirPixelsDoNotTurnAnUprightPicture) {
+  Figure figure;
+  figure.x = axis({{{50, 200}, 0}, {{350, 201}, 1}});  // 0.2 degrees
+  figure.y = axis({{{50, 200}, 0}, {{50, 50}, 1}});
+  SeriesSpec series;
+  series.name = "a";
+  series.kind = Kind::line;
+  series.colour = {0, 0, 255};
+  figure.series = {series};
+  const cv::Mat paper(250, 400, CV_8UC3, cv::Scalar::all(255));
+  // Nor does a curve that is nearly straight and level.
+  cv::Mat flat = paper.clone();
+  cv::line(flat, {75, 152}, {325, 150}, cv::Scalar(0, 0, 255), 1, cv::LINE_AA);
+  EXPECT_EQ(digitise(flat, false, figure, "f").angle, 0);
+  cv::Mat picture = paper.clone();
+  cv::line(picture, {75, 190}, {325, 75}, cv::Scalar(0, 0, 255), 3, cv::LINE_AA);
+  const auto straight = digitise(picture, false, figure, "f");
+  EXPECT_EQ(straight.angle, 0);
+  // Six pixels are no pixel's error; the angle's own is that of points far from the axes.
+  figure.x.points[1].pixel.y = 194;
+  figure.y.points[1].pixel.x = 47;
+  const auto found = digitise(picture, false, figure, "f");
+  EXPECT_NEAR(found.angle, std::atan2(6, 300) * 180 / M_PI, 0.02);
+  EXPECT_GT(found.series[0].points.back().x_u, 1.08 * straight.series[0].points.back().x_u);
 }
 
 TEST(Doubt, AMarkerThatFitsMuchWorseThanItsSeries) {
@@ -280,6 +338,9 @@ TEST(Doubt, WhatLooksLikeAMarkerAndWasNotTaken) {
   rest.coverage(cv::Rect(150, 20, 14, 14)).setTo(1);  // one of them
   ASSERT_EQ(missed_markers(rest, {marker}).size(), 1U);
   EXPECT_NEAR(missed_markers(rest, {marker})[0].x, 157, 1);
+  rest.coverage(cv::Rect(167, 18, 6, 16)).setTo(1);  // a letter beside it: it is one too
+  EXPECT_TRUE(missed_markers(rest, {marker}).empty());
+  rest.coverage(cv::Rect(167, 18, 6, 16)).setTo(0);
   rest.coverage(cv::Rect(150, 20, 14, 14)).setTo(0);
   // Three of another shape.
   for (const int x : {20, 50, 80})
