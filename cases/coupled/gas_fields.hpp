@@ -17,7 +17,7 @@ struct Gas::Fields {
   Foam::volScalarField voidfraction;
   Foam::volVectorField U;
   Foam::volScalarField p;
-  Foam::volVectorField grad_p;  // of p as it is: drag, predictor and corrector share it
+  Foam::volVectorField grad_p;        // of p as it is: drag, predictor and corrector share it
   Foam::surfaceScalarField phi;       // u . S
   Foam::surfaceScalarField alphaPhi;  // eps u . S
   Foam::volScalarField K;             // drag coefficient over rho, in a volume of bed [1/s]
