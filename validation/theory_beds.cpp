@@ -9,6 +9,7 @@
 #include "physics/packing.hpp"
 #include "physics/particle_motion.hpp"
 #include "physics/well_mixed_bed.hpp"
+#include "validation/quantity.hpp"
 #include "validation/theory_parts.hpp"
 
 namespace bedscope::validation {
@@ -22,8 +23,10 @@ physics::Sphere sphere(const Parameters& with) {
 physics::Gas gas(const Parameters& with) { return {with("gas_density"), with("gas_viscosity")}; }
 
 double bed_weight(const Parameters& with, const RunResult& run, double) {
-  return physics::bed_pressure_drop(with.or_else("mass", run.inventory_mass.value), with("area"),
-                                    with("particle_density"), with("gas_density"), with("gravity"));
+  const double mass =
+      with.has("mass") ? with("mass") : sample(run, {.quantity = "inventory"}).value.front();
+  return physics::bed_pressure_drop(mass, with("area"), with("particle_density"),
+                                    with("gas_density"), with("gravity"));
 }
 
 double terminal_velocity(const Parameters& with, const RunResult&, double) {

@@ -16,6 +16,7 @@ class Parameters {
  public:
   explicit Parameters(const std::map<std::string, double>& values) : values_(&values) {}
   double operator()(const char* name) const { return values_->at(name); }
+  bool has(const char* name) const { return values_->contains(name); }
   double or_else(const char* name, double otherwise) const {
     const auto found = values_->find(name);
     return found != values_->end() ? found->second : otherwise;

@@ -49,12 +49,13 @@ class Run {
     check_steps();
     record_.start(resume ? gas_.time() : -1);
     coupling_.map();
-    if (!resume) {
-      gas_.forget_old_voidage();
-      update_forces();
-    }
+    if (!resume) gas_.forget_old_voidage();
+    const auto is_over = [&] {
+      return gas_.time() > settings_.end_time - 0.5 * settings_.time_step;
+    };
+    if (!resume || is_over()) update_forces();  // of a run that is over: for its record
     expected_ = dem_.count();
-    while (gas_.time() < settings_.end_time - 0.5 * settings_.time_step) step();
+    while (!is_over()) step();
     finish();
   }
 

@@ -45,6 +45,9 @@ class Killed(unittest.TestCase):
         self.assertEqual(list(one), list(other))
         self.assertEqual([n for n in one if one[n] != other[n]], [])
         print(f"killed after step {rows}, resumed at {kept}; {len(one)} files equal to the bit")
+        cut.run("--resume")  # nothing is left to do
+        self.assertEqual(cut.record()["state"], "done")
+        self.assertEqual([n for n, what in restart.contents(cut).items() if what != other[n]], [])
 
 
 class Costs(unittest.TestCase):

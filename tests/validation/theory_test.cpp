@@ -33,6 +33,17 @@ TEST(Theory, BedWeightIsThatOfTheRunsSolids) {
   EXPECT_NEAR(value("bed weight", heavier, "Pa"), 2 * value("bed weight", with, "Pa"), 1e-9);
 }
 
+TEST(Theory, BedWeightOfARunGivenAsTablesIsThatOfItsInventory) {
+  analysis::RunResult run;
+  run.window = {.from = 1, .to = 3, .snapshots = 3};
+  for (const auto& [time, mass] : {std::pair{0.0, 1.0}, {1.0, 0.03}, {2.0, 0.04}, {3.0, 0.05}})
+    run.inventory.push_back({.time = time, .type = "all", .solids_mass = mass});
+  const std::map<std::string, double> with{
+      {"area", 4.2e-4}, {"particle_density", 2500}, {"gas_density", 1.2}, {"gravity", 9.81}};
+  EXPECT_EQ(theory_curve("bed weight", with, run, at({0}, "Pa")).points.at(0).y,
+            value("bed weight", with, "Pa"));
+}
+
 TEST(Theory, TerminalVelocityOfTheRisersGlassIsThatOfSchillerAndNaumann) {
   EXPECT_NEAR(value("terminal velocity",
                     {{"diameter", .85e-3},

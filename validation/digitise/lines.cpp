@@ -191,7 +191,7 @@ struct Sample {
 /// Whether the line as seen before or behind a marker goes through it, within twice its
 /// uncertainty: a line may pass beside the markers that it was fitted to.
 bool on_line(const std::vector<Sample>& samples, std::size_t marker) {
-  const auto& [place, is_marker] = samples[marker];
+  const PlaceOnLine& place = samples[marker].place;
   const auto meets = [&](std::size_t i) {
     const auto& [at, along] = samples[i].place.passage;
     return std::abs((place.passage.at - at).cross(along)) <= 2 * place.u;
