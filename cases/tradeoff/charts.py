@@ -41,9 +41,14 @@ class Axes:
         return "; ".join(f"set {side}margin at screen {e:.5f}" for side, e in zip("lrbt", edges))
 
     def ranges(self):
-        tics = lambda ends: ", ".join(f"{v:g}" for v in STEPS if ends[0] <= v <= ends[1])
+        def tics(ends, most):
+            """Beyond so many decades numbers would touch: those of 10, 100, 1000 alone."""
+            all_fit = ends[1] / ends[0] <= 10**most
+            return ", ".join(f"{v:g}" if all_fit or f"{v:e}".startswith("1.0") else f"'' {v:g} 1"
+                             for v in STEPS if ends[0] <= v <= ends[1])
+
         return f"set xrange [{self.x[0]:g}:{self.x[1]:g}]; set yrange [{self.y[0]:g}:{self.y[1]:g}]; " \
-               f"set xtics ({tics(self.x)}); set ytics ({tics(self.y)})"
+               f"set xtics ({tics(self.x, 2.4)}); set ytics ({tics(self.y, 4)})"
 
     def label(self, x, y, text, more="center"):
         return f"set label {quoted(text)} at graph {x / self.size[0]:.4f},{y / self.size[1]:.4f} {more} font ',8'"
