@@ -91,8 +91,9 @@ def run(case):
 def measure_costs(scenes, work, kept, seconds, rounds=2):
     """What a gas step of each costs with nothing beside it, from the start: one after the other, the least of the rounds.
 
-    The wall clock of the steps, without what starting takes. For choices that are kept; goes to cost.json there.
+    The wall clock of the steps, without what starting takes. For choices that are kept; goes to cost.json there. Throws Failed.
     """
+    scenes = [scene for scene in scenes if (kept / scene.stem / "run.json").exists()]
     found = {}
     for _ in range(rounds):
         for scene in scenes:
@@ -106,8 +107,7 @@ def measure_costs(scenes, work, kept, seconds, rounds=2):
             shutil.rmtree(case)
             short.unlink()
     for name, ms in found.items():
-        if (kept / name / "run.json").exists():
-            (kept / name / "cost.json").write_text(json.dumps(dict(ms_per_step=ms, seconds=seconds, rounds=rounds)) + "\n")
+        (kept / name / "cost.json").write_text(json.dumps(dict(ms_per_step=ms, seconds=seconds, rounds=rounds)) + "\n")
 
 
 def reduce(case, result, cell, block):
@@ -217,7 +217,7 @@ def ratio(sums, numbers):
 def keep_costs(work, kept):
     """Of runs that are not done: what they cost so far. Too little of a run tells nothing: 100 gas steps at least."""
     for case in sorted(work.iterdir()):
-        if (case / "run.json").exists() and not (kept / case.name / "products.csv").exists():
+        if case.name[0] != "." and (case / "run.json").exists() and not (kept / case.name / "products.csv").exists():
             if json.loads((case / "run.json").read_text())["time"]["steps"] >= 100:
                 (kept / case.name).mkdir(parents=True, exist_ok=True)
                 for name in ("scene.toml", "run.json"):

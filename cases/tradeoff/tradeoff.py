@@ -49,7 +49,11 @@ def run_all(asked):
     with concurrent.futures.ThreadPoolExecutor(asked.jobs) as pool:
         failed = any(list(pool.map(one, asked.scenes)))
     if asked.costs:
-        runs.measure_costs(asked.scenes, asked.work, asked.kept, asked.costs)
+        try:
+            runs.measure_costs(asked.scenes, asked.work, asked.kept, asked.costs)
+        except runs.Failed as error:
+            print(f"--costs {asked.costs:g}: {error}", file=sys.stderr)
+            failed = True
     runs.keep_costs(asked.work, asked.kept)
     return failed
 

@@ -8,6 +8,8 @@
 namespace bedscope::digitise {
 namespace {
 
+constexpr double compression = 0.05;  // of a place in a JPEG [px]
+
 /// The mean of the fractions of a pixel as a vector: of length 1 where all are alike, about
 /// 1/sqrt(n) where they are random (the mean resultant of directional statistics; Mardia and Jupp,
 /// 2000).
@@ -46,14 +48,14 @@ void complete(std::vector<Marker>& markers, int reduction, bool turned, bool los
     }
     for (auto& marker : markers) {
       (axis == 0 ? marker.at.x : marker.at.y) -= shift;
-      marker.u[axis] = std::hypot(1.3 * marker.u[axis], grid, lossy ? 0.05 : 0.0);
+      marker.u[axis] = std::hypot(1.3 * marker.u[axis], grid, lossy ? compression : 0.0);
     }
   }
 }
 
 void complete(std::vector<LinePoint>& points, bool lossy) {
   for (auto& point : points)
-    point.u = std::hypot(point.u, 1 / 9.0 / std::sqrt(3.0), lossy ? 0.05 : 0.0);
+    point.u = std::hypot(point.u, 1 / 9.0 / std::sqrt(3.0), lossy ? compression : 0.0);
 }
 
 }  // namespace bedscope::digitise
