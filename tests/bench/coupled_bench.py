@@ -67,7 +67,7 @@ def dpm_case(ours, folder):
     put(folder / "system/fvSchemes", "dictionary", """
 ddtSchemes { default Euler; } gradSchemes { default Gauss linear; }
 divSchemes { default Gauss linear; div(alphaPhi.air,U.air) Gauss linearUpwind grad(U); }
-laplacianSchemes { default Gauss linear corrected; } interpolationSchemes { default linear; } snGradSchemes { default corrected; }""")
+laplacianSchemes { default Gauss linear orthogonal; } interpolationSchemes { default linear; } snGradSchemes { default orthogonal; }""")
     put(folder / "constant/g", "uniformDimensionedVectorField", f"dimensions [0 1 -2 0 0 0 0]; value {gravity};")
     put(folder / "constant/transportProperties", "dictionary",
         f"continuousPhase air; rho.air 1.2; transportModel Newtonian; nu {nu};")

@@ -57,16 +57,17 @@ timeFormat general; timePrecision 8; runTimeModifiable no;""")
         self.put("CFD/system/fvSchemes", "dictionary", f"""
 ddtSchemes {{ default Euler; }} gradSchemes {{ default Gauss linear; }}
 divSchemes {{ default Gauss linear; div(alphaPhi,U) {self.schemes['U']}; div(alphaPhi,T) {self.schemes['T']}; }}
-laplacianSchemes {{ default Gauss linear corrected; }} interpolationSchemes {{ default linear; }}
-snGradSchemes {{ default corrected; }}""")
+laplacianSchemes {{ default Gauss linear orthogonal; }} interpolationSchemes {{ default linear; }}
+snGradSchemes {{ default orthogonal; }}""")
         self.put("CFD/system/fvSolution", "dictionary", f"""
 solvers
 {{
-    p {{ solver GAMG; smoother GaussSeidel; tolerance {self.tolerance}; relTol 0.02; }}
+    p {{ solver GAMG; smoother GaussSeidel; nFinestSweeps 1; nCellsInCoarsestLevel 50; directSolveCoarsest true; tolerance {self.tolerance}; relTol 0.02; }}
     pFinal {{ $p; tolerance {self.tolerance / 10}; relTol 0; }}
     U {{ solver smoothSolver; smoother symGaussSeidel; tolerance {self.tolerance}; relTol 0; }}
     T {{ solver PBiCGStab; preconditioner DILU; tolerance {self.tolerance}; relTol 0; }}
 }}
+cache {{ grad(U); }}
 PISO {{ nCorrectors 2; nNonOrthogonalCorrectors 0; pRefCell 0; pRefValue 0; }}""")
         self.put("CFD/system/decomposeParDict", "dictionary",
                  "numberOfSubdomains 2; method simple; simpleCoeffs { n (1 1 2); delta 0.001; }")
