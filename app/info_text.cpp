@@ -119,6 +119,8 @@ std::string columns_text(const InfoReport& report) {
     const auto said = remark(column);
     text += said.empty() ? "\n" : "  " + said + "\n";
   }
+  for (const auto& name : report.series.columns())
+    if (readers::holds_text(name)) text += fmt::format("  {:<{}}  text, not read\n", name, width);
   return text;
 }
 

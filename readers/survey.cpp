@@ -48,8 +48,8 @@ struct Columns {
 
   explicit Columns(const std::vector<std::string>& parts, Survey& found) {
     for (const auto& name : parts) {
-      // Chemical symbols and type labels are text; XML files of LIGGGHTS have arrays without names.
-      if (name.empty() || name == "element" || name == "typelabel") continue;
+      // XML files of LIGGGHTS have arrays without names.
+      if (name.empty() || holds_text(name)) continue;
       auto place = std::find_if(request.begin(), request.end(),
                                 [&](const ColumnRequest& item) { return item.name == name; });
       if (place == request.end()) place = request.insert(place, {name, false});

@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "readers/flaws.hpp"
@@ -64,6 +65,11 @@ struct DeepestOverlap {
   Overlaps found;
   std::string place;  ///< of one of the two particles
 };
+
+/// Columns that hold words by LAMMPS' naming: chemical symbols and labels of types.
+inline bool holds_text(std::string_view column) {
+  return column == "element" || column == "typelabel";
+}
 
 struct Survey {
   // From the headers of all snapshots.

@@ -97,6 +97,11 @@ class Findings(Info):
         for word in ("dump100.liggghts_run", "again100.liggghts_run", "repeated"):
             self.assertIn(word, error)
 
+    def test_columns_of_words_are_named(self):
+        self.write("dump.0", "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp pp\n0 1\n0 1\n0 1\n"
+                             "ITEM: ATOMS id type element x y z radius\n1 1 Al 0.1 0.2 0.3 0.01\n")
+        self.assertIn("  element     text, not read\n", self.run_it("info", "dump.0").stdout)
+
     def test_times_come_from_the_log(self):
         self.post()
         self.assertNotIn("times", self.json("post"))
