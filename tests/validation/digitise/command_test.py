@@ -181,6 +181,16 @@ class Command(unittest.TestCase):
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertIn("doubtful: no frame was found", run.stderr)
 
+    def test_a_marker_of_which_a_part_is_hidden_is_said(self):
+        a, b = place(*POINTS[2])
+        with Image.open(self.at("fig.png")) as picture:
+            image = picture.convert("RGB")
+        ImageDraw.Draw(image).rectangle([a + 1, b - 9, a + 2, b + 9], fill="white")
+        image.save(self.at("fig.png"))
+        run = self.run_it('image = "fig.png"\n' + X + Y + SERIES, "--quiet")
+        self.assertEqual(len(self.rows()), len(POINTS))  # with the heading: one is missed
+        self.assertIn("1 places look like markers of which a part is hidden: [", run.stderr)
+
     def test_bars_and_stretches_of_lines_that_are_not_seen_are_said(self):
         draw(self.at("fig.png"), bars=[0.1, 0.15, 0.0, 0.09, 0.2])
         run = self.run_it('image = "fig.png"\n' + X + Y + SERIES, "--quiet")
