@@ -266,7 +266,8 @@ class Digitiser {
       for (const auto& one : markers[t])
         cover(map, find_error_bar(whole, templates[t], one.at, with_line), one.at);
     if (!with_markers.empty())
-      doubt_markers(ink, with_markers, missed_markers(map, templates), markers);
+      doubt_markers(ink, with_markers, missed_markers(map, templates),
+                    incomplete_markers(map, templates), markers);
     for (const auto i : members)
       if (figure_.series[i].kind == Kind::line)
         store_line(map, all_points(markers), figure_.series[i], found_.series[i]);
@@ -278,6 +279,7 @@ class Digitiser {
 
   void doubt_markers(int ink, const std::vector<std::size_t>& series,
                      const std::vector<cv::Point2d>& missed,
+                     const std::vector<cv::Point2d>& incomplete,
                      const std::vector<std::vector<Marker>>& markers) {
     if (series.size() > 1 && std::any_of(series.begin(), series.end(), [&](std::size_t i) {
           return !figure_.series[i].shape && !figure_.series[i].sample;
@@ -285,14 +287,19 @@ class Digitiser {
       found_.doubts.push_back(fmt::format(
           "series {}: all of colour {}: expected a shape or a template for each, found one without",
           names_of(series), hex_of(colours_.inks[ink])));
+    if (!incomplete.empty())
+      found_.doubts.push_back(
+          fmt::format("series {}: {} places look like markers of which a part is hidden: {}",
+                      names_of(series), incomplete.size(), listed(incomplete, area_.tl())));
     if (!missed.empty())
       found_.doubts.push_back(fmt::format("series {}: {} more places look like markers: {}",
-                                          names_of(series), missed.size(), listed(missed)));
+                                          names_of(series), missed.size(),
+                                          listed(missed, area_.tl())));
     for (std::size_t t = 0; t < series.size(); ++t)
       if (const auto unlike = unlike_others(markers[t]); !unlike.empty())
-        found_.doubts.push_back(
-            fmt::format("series {}: {} of {} markers resemble the others little: {}",
-                        names_of({series[t]}), unlike.size(), markers[t].size(), listed(unlike)));
+        found_.doubts.push_back(fmt::format(
+            "series {}: {} of {} markers resemble the others little: {}", names_of({series[t]}),
+            unlike.size(), markers[t].size(), listed(unlike, area_.tl())));
   }
 
   std::string names_of(const std::vector<std::size_t>& series) const {
@@ -302,11 +309,11 @@ class Digitiser {
     return names;
   }
 
-  /// The first of `places`, in pixels of the picture.
-  std::string listed(const std::vector<cv::Point2d>& places) const {
+  /// The first of `places`, which count from `corner` of the page, in pixels of the picture.
+  std::string listed(const std::vector<cv::Point2d>& places, cv::Point corner) const {
     std::string text;
     for (std::size_t i = 0; i < std::min<std::size_t>(3, places.size()); ++i) {
-      const auto at = page_.to_picture(places[i] + cv::Point2d(area_.tl()));
+      const auto at = page_.to_picture(places[i] + cv::Point2d(corner));
       text += fmt::format("{}[{:.0f}, {:.0f}]", i == 0 ? "" : ", ", at.x, at.y);
     }
     return places.size() > 3 ? text + " ..." : text;
@@ -385,6 +392,10 @@ class Digitiser {
       }
       found.points.push_back(point);
     }
+    if (const auto without = without_bar(found.points); !without.empty())
+      found_.doubts.push_back(
+          fmt::format("series \"{}\": an end of the error bar is not seen at {} of {} markers: {}",
+                      series.name, without.size(), found.points.size(), listed(without, {0, 0})));
   }
 
   void store_line(const InkMap& map, const std::vector<LinePoint>& through,
@@ -401,6 +412,11 @@ class Digitiser {
           fmt::format("series \"{}\": the line explains {:.0f} % of the ink of its colour: a "
                       "second line, or one with several places for one abscissa",
                       series.name, 100 * line.explained));
+    if (const auto gaps = gaps_in(line, area_.size()); !gaps.empty())
+      found_.doubts.push_back(
+          fmt::format("series \"{}\": the line is not seen to within a twentieth of an axis "
+                      "at {} places: {}",
+                      series.name, gaps.size(), listed(gaps, area_.tl())));
     complete(line.points, colours_.lossy);
     for (const auto& one : line.points)
       found.points.push_back(to_point(one.at + cv::Point2d(area_.tl()), one.u, one.u));

@@ -2,6 +2,7 @@
 #include "validation/digitise/doubt.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <opencv2/imgproc.hpp>
 
 #include "validation/digitise/pieces.hpp"
@@ -85,6 +86,39 @@ std::vector<cv::Point2d> unlike_others(const std::vector<Marker>& markers) {
   for (const auto& marker : markers)
     if (marker.fit.score < between) places.push_back(marker.at);
   return places;
+}
+
+std::vector<cv::Point2d> without_bar(const std::vector<Point>& points) {
+  std::vector<bool> lacks(points.size());
+  std::ptrdiff_t lacking = 0, ends = 0;
+  for (const int side : {0, 1}) {
+    const auto unseen = [side](const Point& point) { return std::isnan(point.bar_pixel[side]); };
+    const auto n = std::count_if(points.begin(), points.end(), unseen);
+    if (2 * n >= std::ssize(points)) continue;
+    lacking += n;
+    ends += std::ssize(points);
+    for (std::size_t i = 0; i < points.size(); ++i) lacks[i] = lacks[i] || unseen(points[i]);
+  }
+  std::vector<cv::Point2d> places;
+  if (10 * lacking <= ends) return places;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (lacks[i]) places.push_back(points[i].pixel);
+  return places;
+}
+
+std::vector<cv::Point2d> gaps_in(const TracedLine& line, cv::Size area) {
+  std::vector<cv::Point2d> places{line.first}, gaps;
+  for (const auto& point : line.points) places.push_back(point.at);
+  places.push_back(line.last);
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    const auto gap = places[i] - places[i - 1];
+    const bool at_end = i == 1 || i + 1 == places.size();
+    const double farthest = at_end ? 1 : 0.5;
+    if (20 * farthest * std::abs(gap.x) > area.width ||
+        20 * farthest * std::abs(gap.y) > area.height)
+      gaps.push_back((places[i] + places[i - 1]) / 2);
+  }
+  return gaps;
 }
 
 int ink_beside(const Colours& colours, int ink) {

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "validation/digitise/colour.hpp"
+#include "validation/digitise/figure.hpp"
+#include "validation/digitise/lines.hpp"
 #include "validation/digitise/markers.hpp"
 
 namespace bedscope::digitise {
@@ -16,6 +18,14 @@ std::vector<cv::Point2d> missed_markers(const InkMap& rest, const std::vector<Te
 
 /// Markers that fit so much worse than most of their series that they are nearer to being none.
 std::vector<cv::Point2d> unlike_others(const std::vector<Marker>& markers);
+
+/// Markers of which an end of the error bar, lower or upper, is not seen, while it is of most; none
+/// where that is no more than one end in ten, as a short bar hides in its marker.
+std::vector<cv::Point2d> without_bar(const std::vector<Point>& points);
+
+/// The middles of the stretches of a line that hold no place and go farther than a twentieth of an
+/// axis (`area`) from the nearest one: twice as much between two, once at an end.
+std::vector<cv::Point2d> gaps_in(const TracedLine& line, cv::Size area);
 
 /// Another ink that noise cannot tell from `ink`: nearer to it than a colour may be to the one
 /// asked for. Its index, or -1; always -1 where the picture has no noise.

@@ -13,9 +13,12 @@ struct Word {
   cv::Rect box;
 };
 
+/// Letters with ascender and descender are some 2.4 times as high as those with neither; a dash
+/// beside a marker with its bars is lower than that.
 bool same_row(const cv::Rect& a, const cv::Rect& b) {
   const int overlap = std::min(a.br().y, b.br().y) - std::max(a.y, b.y);
-  return 2 * overlap >= std::min(a.height, b.height);
+  const auto [low, high] = std::minmax(a.height, b.height);
+  return 2 * overlap >= low && 2.5 * low >= high;
 }
 
 /// Pieces of ink of a letter's size.
@@ -68,9 +71,10 @@ std::vector<Word> words_of(const std::vector<cv::Rect>& glyphs) {
 std::optional<cv::Rect> sample_beside(const cv::Mat& mask, const cv::Rect& text, int height,
                                       bool left, const cv::Rect& area) {
   const int near = cvRound(0.25 * height), far = cvRound(9 * height);
-  const int top = text.y + text.height / 2 - cvRound(1.05 * height);
-  const cv::Rect strip = cv::Rect(left ? text.x - far : text.br().x + near, top, far - near,
-                                  2 * cvRound(1.05 * height)) &
+  // Room for a sample of one and a half times the letters' height, off their middle by 0.4 of it.
+  const int reach = cvRound(1.25 * height);
+  const cv::Rect strip = cv::Rect(left ? text.x - far : text.br().x + near,
+                                  text.y + text.height / 2 - reach, far - near, 2 * reach) &
                          area;
   if (strip.width < height || strip.height < height) return std::nullopt;
   cv::Mat labels, stats, centres;
@@ -138,22 +142,29 @@ std::vector<cv::Rect> find_boxes(const Rules& rules, const cv::Rect& area) {
 
 std::vector<cv::Rect> find_legend_rows(const cv::Mat& text, const cv::Mat& ink,
                                        const cv::Rect& area) {
-  const cv::Mat letters = text(area) > 0.4F, any = ink > 0.25F;
   std::vector<cv::Rect> rows;
-  for (const auto& word : words_of(glyphs_of(letters, area.tl()))) {
-    int height = 0;
-    for (const auto& glyph : word.glyphs) height = std::max(height, glyph.height);
-    if (word.box.width < 0.8 * height) continue;
-    for (const bool left : {true, false})
-      if (const auto sample = sample_beside(any, word.box, height, left, area)) {
-        const int margin = std::max(2, height / 4);
-        const cv::Rect both = word.box | *sample;
-        rows.push_back(cv::Rect(both.x - margin, both.y - margin, both.width + 2 * margin,
-                                both.height + 2 * margin) &
-                       area);
-        break;
+  // The strokes of small letters are thin, and pale where a scan or a compression blurs them; where
+  // they are sharp, the lower limit joins letters to one. So it is with thin samples, and those
+  // close to the legend's frame.
+  for (const double least : {0.4, 0.3})
+    for (const auto& word : words_of(glyphs_of(text(area) > least, area.tl()))) {
+      int height = 0;
+      for (const auto& glyph : word.glyphs) height = std::max(height, glyph.height);
+      if (word.box.width < 0.8 * height) continue;
+      const int margin = std::max(2, height / 4);
+      bool found = false;
+      for (const bool left : {true, false}) {
+        for (const double any : {0.25, 0.5})
+          if (const auto sample = sample_beside(ink > any, word.box, height, left, area)) {
+            const cv::Rect both = word.box | *sample;
+            rows.push_back(cv::Rect(both.x - margin, both.y - margin, both.width + 2 * margin,
+                                    both.height + 2 * margin) &
+                           area);
+            found = true;
+          }
+        if (found) break;
       }
-  }
+    }
   return rows;
 }
 

@@ -208,6 +208,8 @@ TracedLine sample(const InkMap& map, const Path& path, double stroke, int points
   TracedLine line;
   const auto& runs = path.runs;
   if (runs.size() < 2) return line;
+  line.first = {runs.front().column + 0.5, runs.front().middle};
+  line.last = {runs.back().column + 0.5, runs.back().middle};
   const auto along = lengths_along(runs);
   const auto passages = passages_of(runs, along, stroke);
   const auto thickness = thickness_of(map, passages, stroke);
@@ -272,8 +274,10 @@ TracedLine trace_line(const InkMap& whole, const std::vector<LinePoint>& through
       along_x ? sample(map, by_column, stroke, points) : sample(turned, by_row, stroke, points);
   line.along_x = along_x;
   line.explained = all > 0 ? (along_x ? by_column : by_row).mass / all : 0;
-  if (!along_x)
+  if (!along_x) {
     for (auto& point : line.points) std::swap(point.at.x, point.at.y);
+    for (auto* end : {&line.first, &line.last}) std::swap(end->x, end->y);
+  }
   return line;
 }
 

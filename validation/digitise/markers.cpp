@@ -9,6 +9,7 @@ namespace bedscope::digitise {
 namespace {
 
 constexpr double least_known = 0.35;
+constexpr double least_ink = 0.45;  // of each eighth
 
 /// Where a template may lie, coarsely: peaks of the correlation at a size of a dozen pixels.
 std::vector<cv::Point2d> guesses(const InkMap& map, const Template& marker) {
@@ -45,8 +46,13 @@ struct Candidate {
 
 double worth(const Fit& fit) { return fit.score * std::sqrt(fit.known); }
 
+/// Ink in all directions. One eighth may lack it where the whole fits well, half way from the
+/// poorest marker to a perfect one: under the edge of another curve, or at the end of a line whose
+/// other markers, and so the template, have it on both sides.
 bool good(const Fit& fit) {
-  return fit.score > least_score && fit.known > least_known && fit.least_part > 0.45;
+  constexpr double well = (least_score + 1) / 2;
+  return fit.score > least_score && fit.known > least_known &&
+         (fit.least_part > least_ink || (fit.next_part > least_ink && fit.score > well));
 }
 
 /// What the template explains is not to be explained again.
@@ -96,6 +102,24 @@ std::vector<std::vector<Marker>> find_markers(const InkMap& map,
     cover(left, marker, again.origin);
   }
   return found;
+}
+
+std::vector<cv::Point2d> incomplete_markers(const InkMap& rest,
+                                            const std::vector<Template>& templates) {
+  std::vector<cv::Point2d> places;
+  for (const auto& marker : templates) {
+    const double size = std::max(marker.box.width, marker.box.height);
+    for (const auto guess : guesses(rest, marker)) {
+      const auto here = fit(marker, rest, guess);
+      const bool had = std::any_of(places.begin(), places.end(), [&](cv::Point2d other) {
+        return cv::norm(other - here.origin) < size;
+      });
+      if (!had && here.score > least_score && here.known > least_known &&
+          here.least_part > least_ink / 2)
+        places.push_back(here.origin);
+    }
+  }
+  return places;
 }
 
 }  // namespace bedscope::digitise

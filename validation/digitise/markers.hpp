@@ -39,4 +39,9 @@ std::optional<Template> markers_on_line(const InkMap& map);
 std::vector<std::vector<Marker>> find_markers(const InkMap& map,
                                               const std::vector<Template>& templates);
 
+/// Places in the ink that is left (what was found is unknown in `rest`) that fit as markers do, but
+/// lack up to three quarters of the ink in some direction: they may lie under another curve.
+std::vector<cv::Point2d> incomplete_markers(const InkMap& rest,
+                                            const std::vector<Template>& templates);
+
 }  // namespace bedscope::digitise

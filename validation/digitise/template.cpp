@@ -355,10 +355,12 @@ Fit fit(const Template& marker, const InkMap& map, cv::Point2d near) {
     }
   // Strokes would fit anywhere within a patch of ink.
   if (strokes && around > 0.6 * n_around) explained = 0;
-  found.least_part = 1;
+  std::vector<double> parts{1, 1};
   for (std::size_t part = 0; part < 8; ++part)
-    if (ink_of[part] > 0.03 * all)
-      found.least_part = std::min(found.least_part, there_of[part] / ink_of[part]);
+    if (ink_of[part] > 0.03 * all) parts.push_back(there_of[part] / ink_of[part]);
+  std::partial_sort(parts.begin(), parts.begin() + 2, parts.end());
+  found.least_part = parts[0];
+  found.next_part = parts[1];
   const double det = xx * yy - xy * xy, variance = squares / std::max(1.0, weights - 2);
   found.origin = origin;
   found.u[0] = std::sqrt(variance * yy / det);

@@ -33,6 +33,7 @@ struct Fit {
   double score = -1;      ///< 1 where all is explained, 0 where it is no better than paper
   double known = 0;       ///< share of the template's ink on known pixels
   double least_part = 0;  ///< how much of the ink of its worst eighth (by direction) is there
+  double next_part = 0;   ///< the same of its second worst eighth
 };
 
 /// The outline and fill that resemble `ink` best, of `among`, with their correlation.

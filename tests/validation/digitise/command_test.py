@@ -181,6 +181,34 @@ class Command(unittest.TestCase):
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertIn("doubtful: no frame was found", run.stderr)
 
+    def test_a_marker_of_which_a_part_is_hidden_is_said(self):
+        a, b = place(*POINTS[2])
+        with Image.open(self.at("fig.png")) as picture:
+            image = picture.convert("RGB")
+        ImageDraw.Draw(image).rectangle([a + 1, b - 9, a + 2, b + 9], fill="white")
+        image.save(self.at("fig.png"))
+        run = self.run_it('image = "fig.png"\n' + X + Y + SERIES, "--quiet")
+        self.assertEqual(len(self.rows()), len(POINTS))  # with the heading: one is missed
+        self.assertIn("1 places look like markers of which a part is hidden: [", run.stderr)
+
+    def test_bars_and_stretches_of_lines_that_are_not_seen_are_said(self):
+        draw(self.at("fig.png"), bars=[0.1, 0.15, 0.0, 0.09, 0.2])
+        run = self.run_it('image = "fig.png"\n' + X + Y + SERIES, "--quiet")
+        a, b = place(*POINTS[2])
+        self.assertIn(f"an end of the error bar is not seen at 1 of 5 markers: [{a:.0f}, {b:.0f}]", run.stderr)
+        image = Image.open(self.at("fig.png"))
+        pen = ImageDraw.Draw(image)
+        pen.rectangle([65, 25, 355, 255], fill="white")
+        pen.line([80, 200, 340, 90], fill=(214, 39, 40), width=3)
+        image.save(self.at("fig.png"))
+        text = 'image = "fig.png"\n' + X + Y + SERIES.replace("markers", "line")
+        self.assertEqual(self.run_it(text, "--quiet").stderr, "")
+        pen.rectangle([190, 60, 230, 220], fill=(31, 119, 180))
+        image.save(self.at("fig.png"))
+        run = self.run_it(text, "--quiet")
+        self.assertEqual((run.returncode, run.stderr.count("\n")), (0, 1), run.stderr)
+        self.assertIn("not seen to within a twentieth of an axis at 1 places: [210, ", run.stderr)
+
     def test_suggestion_shows_area_and_ticks(self):
         run = subprocess.run([PROGRAM, "digitise", "--suggest", self.at("fig.png")], capture_output=True, text=True)
         self.assertEqual(run.returncode, 0, run.stderr)

@@ -9,6 +9,7 @@
 #include "validation/digitise/calibration.hpp"
 #include "validation/digitise/clear.hpp"
 #include "validation/digitise/doubt.hpp"
+#include "validation/digitise/legend.hpp"
 #include "validation/digitise/lines.hpp"
 #include "validation/digitise/page.hpp"
 #include "validation/digitise/rules.hpp"
@@ -356,6 +357,106 @@ TEST(Doubt, AnInkThatNoiseCannotTellFromAnother) {
   EXPECT_EQ(ink_beside(colours, 2), -1);
   colours.lossy = false;
   EXPECT_EQ(ink_beside(colours, 0), -1);
+}
+
+TEST(Legend, DashesBetweenMarkersWithBarsAreNoWords) {
+  cv::Mat ink = cv::Mat::zeros(400, 500, CV_32F);  // a dashed line through markers with bars
+  for (const int x : {100, 160, 220}) {
+    cv::circle(ink, {x, 100}, 8, cv::Scalar(1), cv::FILLED);
+    ink(cv::Rect(x, 85, 1, 30)).setTo(1);
+    ink(cv::Rect(x + 14, 97, 14, 6)).setTo(1);
+    ink(cv::Rect(x + 33, 97, 14, 6)).setTo(1);
+  }
+  EXPECT_TRUE(find_legend_rows(ink, ink, {0, 0, 500, 400}).empty());
+}
+
+TEST(Legend, PaleLettersAndASampleAtItsFrameAreALegend) {
+  cv::Mat text = cv::Mat::zeros(200, 300, CV_32F);
+  int x = 150;
+  for (const int width : {8, 4, 9, 5}) {  // letters, and the blur that joins them
+    cv::rectangle(text, cv::Rect(x, 100, width, 10), cv::Scalar(0.38), 1);
+    text(cv::Rect(x + width, 104, 2, 3)).setTo(0.25);
+    x += width + 2;
+  }
+  cv::Mat ink = text.clone();
+  ink(cv::Rect(100, 90, 2, 30)).setTo(1);    // the frame's side
+  ink(cv::Rect(102, 98, 2, 14)).setTo(0.4);  // blur
+  ink(cv::Rect(104, 97, 15, 15)).setTo(1);   // half again as high as the letters
+  cv::Mat seen = cv::Mat::zeros(ink.size(), CV_8U);
+  for (const auto& row : find_legend_rows(text, ink, {0, 0, 300, 200})) seen(row).setTo(1);
+  EXPECT_EQ(cv::countNonZero(seen(cv::Rect(104, 97, 15, 15))), 15 * 15);
+  EXPECT_EQ(cv::countNonZero(seen.rowRange(0, 80)), 0);
+}
+
+TEST(Markers, AtTheEndOfALineHaveItOnOneSideOnly) {
+  const Shape shape{Outline::x, Fill::any};
+  const cv::Mat drawn = draw_shape(shape, {15, 15}, 2, {19, 19});
+  cv::Mat with_line = drawn.clone();
+  with_line(cv::Rect(2, 8, 15, 3)).setTo(1);
+  const auto marker = make_template(with_line, shape);
+  InkMap map{cv::Mat::zeros(100, 200, CV_32F), cv::Mat::zeros(100, 200, CV_8U)};
+  for (const int x : {30, 80, 130}) {
+    cv::Mat there = map.coverage(cv::Rect(x - 9, 41, 19, 19));
+    cv::max(there, drawn, there);
+  }
+  map.coverage(cv::Rect(30, 49, 100, 3)).setTo(1);
+  const auto found = find_markers(map, {marker});
+  ASSERT_EQ(found[0].size(), 3U);
+  for (const auto& one : found[0]) {
+    const double nearest = 30.5 + 50 * std::round((one.at.x - 30.5) / 50);
+    EXPECT_NEAR(one.at.x, nearest, 0.5);
+    EXPECT_NEAR(one.at.y, 50.5, 0.5);
+  }
+  // Two arms less, and it is none.
+  map.coverage(cv::Rect(20, 53, 20, 8)).setTo(0);
+  EXPECT_EQ(find_markers(map, {marker})[0].size(), 2U);
+}
+
+TEST(Doubt, AMarkerUnderTheEdgeOfAnotherCurve) {
+  const Shape square{Outline::square, Fill::filled};
+  const auto marker = make_template(draw_shape(square, {14, 14}, 2, {18, 18}), square);
+  InkMap rest{cv::Mat::zeros(100, 200, CV_32F), cv::Mat::zeros(100, 200, CV_8U)};
+  cv::line(rest.coverage, {10, 90}, {190, 60}, cv::Scalar(1), 2);
+  EXPECT_TRUE(incomplete_markers(rest, {marker}).empty());
+  rest.coverage(cv::Rect(50, 20, 14, 14)).setTo(1);
+  rest.coverage(cv::Rect(56, 2, 2, 50)).setTo(1);   // its bar
+  rest.coverage(cv::Rect(58, 20, 4, 14)).setTo(0);  // the other curve
+  EXPECT_TRUE(find_markers(rest, {marker})[0].empty());
+  EXPECT_TRUE(missed_markers(rest, {marker}).empty());
+  ASSERT_EQ(incomplete_markers(rest, {marker}).size(), 1U);
+  EXPECT_LT(cv::norm(incomplete_markers(rest, {marker})[0] - cv::Point2d(57, 27)), 3);
+}
+
+TEST(Doubt, AnErrorBarOfWhichAnEndIsNotSeenWhileMostAre) {
+  std::vector<Point> points(5);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    points[i].pixel = {10.0 * static_cast<double>(i), 50};
+    points[i].bar_pixel[1] = 40;
+  }
+  EXPECT_TRUE(without_bar(points).empty());  // bars to one side
+  points[3].bar_pixel[1] = nan;
+  ASSERT_EQ(without_bar(points).size(), 1U);
+  EXPECT_EQ(without_bar(points)[0], points[3].pixel);
+  points[1].bar_pixel[1] = points[2].bar_pixel[1] = nan;
+  EXPECT_TRUE(without_bar(points).empty());  // what is seen is something else
+  points[2].bar_pixel[1] = points[3].bar_pixel[1] = 40;
+  points.resize(10, points[0]);
+  EXPECT_TRUE(without_bar(points).empty());  // one in ten
+}
+
+TEST(Doubt, ALineThatIsNotSeenToWithinATwentiethOfAnAxis) {
+  const cv::Size area(200, 240);
+  auto map = dashed_line(20, 0.2, 3, 500, 0);
+  EXPECT_TRUE(gaps_in(trace_line(map, {}, 200), area).empty());
+  // Ink of another colour beside the line: it goes on there, but its place cannot be told.
+  map.unknown(cv::Rect(0, 10, 45, 10)).setTo(255);
+  auto gaps = gaps_in(trace_line(map, {}, 200), area);
+  ASSERT_EQ(gaps.size(), 1U);
+  EXPECT_LT(gaps[0].x, 45);
+  map.unknown(cv::Rect(100, 0, 30, 80)).setTo(255);  // over it
+  gaps = gaps_in(trace_line(map, {}, 200), area);
+  ASSERT_EQ(gaps.size(), 2U);
+  EXPECT_NEAR(gaps[1].x, 115, 4);
 }
 
 TEST(Table, QuotesNamesAndWritesNan) {
