@@ -6,10 +6,12 @@
 
 --seconds is the simulated time, the scene's numerics.end where it is not given. The runs were made on one machine; --like gives
 the folder of a run (a short one of K_4.toml, say) made on the machine that is meant, which then counts as so much slower or
-faster than the law. On several ranks core-seconds grow by what they wait for each other.
+faster than the law. On several ranks core-seconds grow by what they wait for each other. --measure runs the scene itself for so
+many seconds of simulated time, a few hundredths, and says how far off the law is: the cycles of the pressure's solver depend on the grid.
 """
 import argparse
 import pathlib
+import sys
 import tempfile
 
 import runs
@@ -22,12 +24,15 @@ def main():
     parser.add_argument("--kept", type=pathlib.Path, nargs="+", required=True)
     parser.add_argument("--seconds", type=float)
     parser.add_argument("--like", type=pathlib.Path)
+    parser.add_argument("--measure", type=float)
     asked = parser.parse_args()
     costs = [cost for kept in asked.kept for cost in runs.load(kept)[1]]
     law = Law(costs)
     print(f"{len(costs)} runs: {law} (95 %), scatter {100 * law.scatter:.2g} %")
     with tempfile.TemporaryDirectory() as folder:
-        scene = runs.scene_of(runs.made(asked.scene, pathlib.Path(folder) / "case"))
+        work = pathlib.Path(folder)
+        scene = runs.scene_of(runs.made(asked.scene, work / "case"))
+        measured = runs.step_cost(asked.scene, work, asked.measure) if asked.measure else None
     numerics = scene["numerics"]
     cells = numerics["grid"][0] * numerics["grid"][1] * numerics["grid"][2]
     dem_steps = round(numerics["gas_step"] / numerics["dem_step"])
@@ -42,7 +47,14 @@ def main():
     print(f"{scene['particles']['number']} particles, {cells} cells, {dem_steps} DEM steps a gas step: "
           f"{ms * speed:.3g} ± {half * speed:.2g} ms of CPU a gas step (95 %)")
     print(f"{seconds:g} s, {steps:.0f} gas steps: {ms * speed * steps / 3.6e6:.3g} ± {half * speed * steps / 3.6e6:.2g} core-hours")
+    if measured:
+        print(f"measured here over {asked.measure:g} s: {measured:.3g} ms a gas step, {measured / (ms * speed):.2f} times what the law says: "
+              f"{measured * steps / 3.6e6:.3g} core-hours")
 
 
 if __name__ == "__main__":
-    main()
+    try:
+        main()
+    except runs.Failed as error:
+        print(f"predict.py: {error}", file=sys.stderr)
+        sys.exit(2)

@@ -32,7 +32,10 @@ class Failed(RuntimeError):
 
 
 def shell(words, where=None, **changes):
-    done = subprocess.run([str(w) for w in words], cwd=where, env=dict(os.environ, **changes), text=True, capture_output=True)
+    try:
+        done = subprocess.run([str(w) for w in words], cwd=where, env=dict(os.environ, **changes), text=True, capture_output=True)
+    except FileNotFoundError:
+        raise Failed(f"{words[0]}: program not found: set BEDSCOPE and BEDSCOPE_COUPLED, or PATH") from None
     if done.returncode:
         raise Failed((done.stderr.strip().splitlines() or [f"{words[0]}: exit {done.returncode}"])[-1])
     return done.stdout
@@ -88,24 +91,26 @@ def run(case):
     shell(words, case, PATH=path, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
 
 
-def measure_costs(scenes, work, kept, seconds, rounds=2):
-    """What a gas step of each costs with nothing beside it, from the start: one after the other, the least of the rounds.
+def step_cost(scene, work, seconds):
+    """Milliseconds of a gas step with nothing beside it, from the start of the scene: the wall clock of the steps. Throws Failed."""
+    short, case = work / f".{scene.stem}.toml", work / f".{scene.stem}.cost"
+    short.write_text(f'base = "{scene.resolve()}"\nnumerics.end = {seconds}\nnumerics.average_from = 0\n')
+    made(short, case)
+    run(case)
+    record = json.loads((case / "run.json").read_text())
+    shutil.rmtree(case)
+    short.unlink()
+    return 1e3 * sum(record["costs"]["seconds"].values()) / record["time"]["steps"]
 
-    The wall clock of the steps, without what starting takes. For choices that are kept; goes to cost.json there. Throws Failed.
-    """
+
+def measure_costs(scenes, work, kept, seconds, rounds=2):
+    """What a gas step of each choice that is kept costs: one after the other, the least of the rounds. Goes to cost.json there. Throws Failed."""
     scenes = [scene for scene in scenes if (kept / scene.stem / "run.json").exists()]
     found = {}
     for _ in range(rounds):
         for scene in scenes:
-            short, case = work / f".{scene.stem}.toml", work / f".{scene.stem}.cost"
-            short.write_text(f'base = "{scene.resolve()}"\nnumerics.end = {seconds}\nnumerics.average_from = 0\n')
-            made(short, case)
-            run(case)
-            record = json.loads((case / "run.json").read_text())
-            ms = 1e3 * sum(record["costs"]["seconds"].values()) / record["time"]["steps"]
+            ms = step_cost(scene, work, seconds)
             found[scene.stem] = min(ms, found.get(scene.stem, ms))
-            shutil.rmtree(case)
-            short.unlink()
     for name, ms in found.items():
         (kept / name / "cost.json").write_text(json.dumps(dict(ms_per_step=ms, seconds=seconds, rounds=rounds)) + "\n")
 

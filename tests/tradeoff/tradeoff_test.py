@@ -6,6 +6,7 @@ import functools
 import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -25,6 +26,7 @@ import runs
 from law import Law
 
 COMMAND = ROOT / "cases/tradeoff/tradeoff.py"
+PREDICT = ROOT / "cases/tradeoff/predict.py"
 
 
 @functools.cache
@@ -178,6 +180,21 @@ class Folder(unittest.TestCase):
         self.assertEqual(done.returncode, code, done.stdout + done.stderr)
         return done
 
+    def predict(self, *words, code=0, **changes):
+        done = subprocess.run([sys.executable, str(PREDICT), *map(str, words), "--kept", str(self.kept)], text=True, capture_output=True,
+                              env=dict(os.environ, **changes))
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        return done
+
+
+class Predicted(Folder):
+    def test_without_the_program_it_is_one_clear_line(self):
+        for name, cells in (("scene", 300), ("K_3", 100), ("K_4", 50)):
+            made_up(self.kept, name, 1e-3, cells, 0)
+        done = self.predict(ROOT / "cases/riser/scene.toml", code=2, BEDSCOPE=str(self.folder / "none"))
+        self.assertEqual(len(done.stderr.splitlines()), 1)
+        self.assertIn("none: program not found", done.stderr)
+
 
 @unittest.skipUnless(shutil.which("gnuplot"), "no gnuplot")
 class Drawn(Folder):
@@ -236,6 +253,11 @@ class Run(Folder):
             self.assertEqual((choice.ms_per_step, measured["seconds"]), (measured["ms_per_step"], 0.02))
             self.assertAlmostEqual(choice.per_second, 5 * choice.ms_per_step)  # 5000 steps a second
             self.assertGreater(choice.ms_per_step, 0)
+        told = self.predict(self.folder / "scene.toml", "--measure", 0.02).stdout.splitlines()[-1]
+        found = re.fullmatch(r"measured here over 0.02 s: (\S+) ms a gas step, (\S+) times what the law says: (\S+) core-hours", told)
+        self.assertTrue(found, told)
+        self.assertAlmostEqual(float(found[3]), float(found[1]) * 250 / 3.6e6, delta=0.01 * float(found[3]))  # 0.05 s
+        self.assertGreater(float(found[1]), 0)
         done = self.command(*words, "--costs", 0.0213, code=2)  # no whole number of gas steps
         self.assertEqual([line[:15] for line in done.stderr.splitlines()], ["--costs 0.0213:"])
 
