@@ -8,6 +8,7 @@
 the folder of a run (a short one of K_4.toml, say) made on the machine that is meant, which then counts as so much slower or
 faster than the law. On several ranks core-seconds grow by what they wait for each other. --measure runs the scene itself for so
 many seconds of simulated time, a few hundredths, and says how far off the law is: the cycles of the pressure's solver depend on the grid.
+--each shows what the law says of each kept run that it is fitted without, --without leaves runs out altogether.
 """
 import argparse
 import pathlib
@@ -25,10 +26,19 @@ def main():
     parser.add_argument("--seconds", type=float)
     parser.add_argument("--like", type=pathlib.Path)
     parser.add_argument("--measure", type=float)
+    parser.add_argument("--each", action="store_true")
+    parser.add_argument("--without", nargs="+", default=[])
     asked = parser.parse_args()
     costs = [cost for kept in asked.kept for cost in runs.load(kept)[1]]
+    if unknown := set(asked.without) - {cost.name for cost in costs}:
+        raise runs.Failed(f"--without: expected names of kept runs, found {', '.join(sorted(unknown))}")
+    costs = [cost for cost in costs if cost.name not in asked.without]
     law = Law(costs)
     print(f"{len(costs)} runs: {law} (95 %), scatter {100 * law.scatter:.2g} %")
+    for left_out in costs if asked.each else []:
+        ms, half = Law([c for c in costs if c is not left_out]).predict(left_out.particles, left_out.dem_steps, left_out.cells)
+        within = "" if abs(left_out.ms_per_step - ms) <= half else ", outside"
+        print(f"{left_out.name}: {ms:.3g} ± {half:.2g} ms without it, measured {left_out.ms_per_step:.3g}{within}")
     with tempfile.TemporaryDirectory() as folder:
         work = pathlib.Path(folder)
         scene = runs.scene_of(runs.made(asked.scene, work / "case"))

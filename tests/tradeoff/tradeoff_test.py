@@ -188,12 +188,25 @@ class Folder(unittest.TestCase):
 
 
 class Predicted(Folder):
+    def setUp(self):
+        super().setUp()
+        for name, cells in (("scene", 300), ("K_1.2", 10000), ("K_1.5", 3000), ("K_2", 1000), ("K_3", 100), ("K_4", 50), ("K_5", 20)):
+            made_up(self.kept, name, 1e-3, cells, 0)  # 1 ms and 3 us a cell, exactly
+
     def test_without_the_program_it_is_one_clear_line(self):
-        for name, cells in (("scene", 300), ("K_3", 100), ("K_4", 50)):
-            made_up(self.kept, name, 1e-3, cells, 0)
         done = self.predict(ROOT / "cases/riser/scene.toml", code=2, BEDSCOPE=str(self.folder / "none"))
         self.assertEqual(len(done.stderr.splitlines()), 1)
         self.assertIn("none: program not found", done.stderr)
+
+    def test_each_run_is_told_by_the_others(self):
+        told = self.predict(ROOT / "cases/riser/scene.toml", "--each", "--without", "K_2", code=2, BEDSCOPE="none").stdout
+        for name, ms in (("scene", "1.9"), ("K_1.5", "10"), ("K_3", "1.3"), ("K_4", "1.15")):
+            self.assertRegex(told, rf"\n{name}: {ms} ± \S+ ms without it, measured {ms}(, outside)?\n")  # to rounding
+        self.assertNotIn("K_2", told)
+
+    def test_a_run_that_is_not_kept_cannot_be_left_out(self):
+        done = self.predict(ROOT / "cases/riser/scene.toml", "--without", "K_7", code=2)
+        self.assertEqual(done.stderr, "predict.py: --without: expected names of kept runs, found K_7\n")
 
 
 @unittest.skipUnless(shutil.which("gnuplot"), "no gnuplot")
