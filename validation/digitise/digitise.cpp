@@ -200,6 +200,17 @@ class Digitiser {
     }
     const auto rows = find_legend_rows(text, ink, area_);
     boxes.insert(boxes.end(), rows.begin(), rows.end());
+    // Each once, and none that lies in another.
+    std::vector<cv::Rect> outer;
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      const auto within = [&](std::size_t j) {
+        return j != i && (boxes[i] | boxes[j]) == boxes[j] && (boxes[i] != boxes[j] || j < i);
+      };
+      bool inner = false;
+      for (std::size_t j = 0; j < boxes.size(); ++j) inner = inner || within(j);
+      if (!inner) outer.push_back(boxes[i]);
+    }
+    boxes = outer;
     for (const auto& box : boxes)
       found_.notes.push_back(
           fmt::format("taken for a legend or an inset and left out: [{}, {}, {}, {}]", box.x, box.y,
@@ -251,6 +262,9 @@ class Digitiser {
     const bool with_line = std::any_of(members.begin(), members.end(), [&](std::size_t i) {
       return figure_.series[i].kind == Kind::line;
     });
+    for (std::size_t t = 0; t < templates.size(); ++t)
+      if (figure_.series[with_markers[t]].error_bars)
+        drop_on_bars(map, templates[t], markers[t], with_line);
     for (std::size_t t = 0; t < templates.size(); ++t)
       store_markers(map, templates[t], markers[t], figure_.series[with_markers[t]],
                     found_.series[with_markers[t]], with_line);

@@ -78,13 +78,9 @@ std::vector<cv::Point2d> missed_markers(const InkMap& rest,
 
 std::vector<cv::Point2d> unlike_others(const std::vector<Marker>& markers) {
   std::vector<cv::Point2d> places;
-  if (markers.size() < 4) return places;
-  std::vector<double> scores;
-  for (const auto& marker : markers) scores.push_back(marker.fit.score);
-  std::sort(scores.begin(), scores.end());
-  const double between = (least_score + scores[scores.size() / 2]) / 2;
+  const double little = little_alike(markers);
   for (const auto& marker : markers)
-    if (marker.fit.score < between) places.push_back(marker.at);
+    if (marker.fit.score < little) places.push_back(marker.at);
   return places;
 }
 

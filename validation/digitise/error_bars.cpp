@@ -111,6 +111,30 @@ ErrorBar find_error_bar(const InkMap& map, const Template& marker, cv::Point2d a
   return {lower.row, upper.row, std::max(lower.half_cap, upper.half_cap)};
 }
 
+void drop_on_bars(const InkMap& map, const Template& marker, std::vector<Marker>& markers,
+                  bool with_line) {
+  const double little = little_alike(markers);
+  struct Stretch {
+    double x, top, bottom;
+  };
+  std::vector<Stretch> bars;
+  for (const auto& one : markers) {
+    if (one.fit.score < little) continue;
+    const auto at = one.fit.origin + marker.reference;
+    const auto bar = find_error_bar(map, marker, at, with_line);
+    bars.push_back(
+        {at.x, std::isnan(bar.upper) ? at.y : bar.upper, std::isnan(bar.lower) ? at.y : bar.lower});
+  }
+  const double aside = marker.box.width / 4, beyond = marker.box.height / 2;
+  std::erase_if(markers, [&](const Marker& one) {
+    const auto at = one.fit.origin + marker.reference;
+    return one.fit.score < little && std::any_of(bars.begin(), bars.end(), [&](const Stretch& bar) {
+             return std::abs(at.x - bar.x) < aside && at.y > bar.top - beyond &&
+                    at.y < bar.bottom + beyond;
+           });
+  });
+}
+
 void cover(InkMap& map, const ErrorBar& bar, cv::Point2d at) {
   for (const double end : {bar.lower, bar.upper}) {
     if (std::isnan(end)) continue;

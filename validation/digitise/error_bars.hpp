@@ -16,6 +16,11 @@ struct ErrorBar {
 /// through the markers, so that a stroke without a cap has to be upright and end in paper.
 ErrorBar find_error_bar(const InkMap& map, const Template& marker, cv::Point2d at, bool with_line);
 
+/// Leaves out of `markers` those that resemble the others little and lie on the bar of another one:
+/// where a cap or the marker's edge crosses it.
+void drop_on_bars(const InkMap& map, const Template& marker, std::vector<Marker>& markers,
+                  bool with_line);
+
 /// Under a bar nothing is known of a line of its ink.
 void cover(InkMap& map, const ErrorBar& bar, cv::Point2d at);
 

@@ -14,19 +14,22 @@ namespace {
 /// What a search tries where the user names no shape.
 std::vector<Shape> common_shapes() {
   std::vector<Shape> shapes{{Outline::plus, Fill::any}, {Outline::x, Fill::any}};
-  for (const auto outline : {Outline::circle, Outline::square, Outline::diamond, Outline::triangle,
-                             Outline::triangle_down}) {
+  for (const auto outline :
+       {Outline::circle, Outline::square, Outline::diamond, Outline::triangle,
+        Outline::triangle_down, Outline::triangle_left, Outline::triangle_right, Outline::star}) {
     shapes.push_back({outline, Fill::filled});
     shapes.push_back({outline, Fill::open});
   }
   return shapes;
 }
 
-/// How much ink a template explains, and how well.
+/// How much ink a template explains, how well, and how much better than beside.
 double worth(const InkMap& map, const Template& marker) {
   double sum = 0;
   const auto found = find_markers(map, {marker});
-  for (const auto& one : found[0]) sum += marker.ink.dot(marker.ink) * (one.fit.score - 0.5);
+  for (const auto& one : found[0])
+    sum +=
+        marker.ink.dot(marker.ink) * (one.fit.score - least_score) * distinct(marker, map, one.fit);
   return sum;
 }
 

@@ -104,6 +104,14 @@ std::vector<std::vector<Marker>> find_markers(const InkMap& map,
   return found;
 }
 
+double little_alike(const std::vector<Marker>& markers) {
+  if (markers.size() < 4) return 0;
+  std::vector<double> scores;
+  for (const auto& marker : markers) scores.push_back(marker.fit.score);
+  std::sort(scores.begin(), scores.end());
+  return (least_score + scores[scores.size() / 2]) / 2;
+}
+
 std::vector<cv::Point2d> incomplete_markers(const InkMap& rest,
                                             const std::vector<Template>& templates) {
   std::vector<cv::Point2d> places;

@@ -39,6 +39,10 @@ std::optional<Template> markers_on_line(const InkMap& map);
 std::vector<std::vector<Marker>> find_markers(const InkMap& map,
                                               const std::vector<Template>& templates);
 
+/// The score half way from the least one to that of the median marker: one below it resembles the
+/// others little. 0 for fewer than four, which show no rule.
+double little_alike(const std::vector<Marker>& markers);
+
 /// Places in the ink that is left (what was found is unknown in `rest`) that fit as markers do, but
 /// lack up to three quarters of the ink in some direction: they may lie under another curve.
 std::vector<cv::Point2d> incomplete_markers(const InkMap& rest,

@@ -158,7 +158,8 @@ std::optional<cv::Rect2d> shaded_area(const cv::Mat& page, const cv::Rect2d& ins
 }
 
 PlotArea plot_area(const Rules& rules, const cv::Rect2d& inside, cv::Size page) {
-  constexpr double slack = 4;
+  // A frame in the paper's colour cuts the ends of grid lines.
+  const double slack = std::max(4.0, 0.01 * std::min(inside.width, inside.height));
   bool guess = false;
   // The ends of the lines that run this way and meet the box; where a tick goes on beyond a corner,
   // the line across there is the edge.
@@ -171,8 +172,8 @@ PlotArea plot_area(const Rules& rules, const cv::Rect2d& inside, cv::Size page) 
     for (const auto& rule : along) {
       const bool meets = rule.at > across_low - slack && rule.at < across_high + slack;
       if (!meets || rule.from > low + slack || rule.to < high - slack) continue;
-      from = found ? std::min(from, rule.from) : rule.from;
-      to = found ? std::max(to, rule.to) : rule.to;
+      from = std::min(found ? std::min(from, rule.from) : rule.from, low);
+      to = std::max(found ? std::max(to, rule.to) : rule.to, high);
       found = true;
     }
     guess = guess || !found;

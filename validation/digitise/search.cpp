@@ -9,6 +9,7 @@
 #include <opencv2/imgproc.hpp>
 #include <set>
 
+#include "validation/digitise/markers.hpp"
 #include "validation/digitise/stroke.hpp"
 #include "validation/digitise/typical.hpp"
 
@@ -81,6 +82,16 @@ bool is_proportioned(Outline outline, cv::Size2d box) {
   return ratio > narrowest / rounding && ratio < widest * rounding;
 }
 
+/// The thickest stroke of a marker as a share of its width. An open one has a hole of three tenths
+/// of its inscribed circle or more; one without would lie as well as a filled one.
+double thickest_stroke(const Shape& shape) {
+  if (is_strokes(shape.outline)) return 0.3;
+  double inscribed = 0.5;  // its radius
+  if (shape.outline == Outline::diamond) inscribed = 0.354;
+  if (is_triangle(shape.outline)) inscribed = 0.289;
+  return 0.7 * inscribed;
+}
+
 struct Guess {
   Shape shape;
   cv::Size2d box;
@@ -103,6 +114,8 @@ std::vector<Guess> rough_guesses(const InkMap& map, const std::vector<Shape>& sh
         for (const double thin : {1.0, 0.5}) {
           if (narrow < 1 && shape.outline != Outline::diamond) continue;
           if (thin < 1 && (stroke < 2 || shape.fill == Fill::filled)) continue;
+          if (shape.fill != Fill::filled && thin * stroke > thickest_stroke(shape) * narrow * size)
+            continue;
           const cv::Size canvas(cvCeil(box) + 2, cvCeil(box) + 2);
           const auto drawn = bare_template(
               draw_shape(shape, {box * narrow, box}, std::max(0.5, thin * stroke * scale), canvas),
@@ -113,8 +126,9 @@ std::vector<Guess> rough_guesses(const InkMap& map, const std::vector<Shape>& sh
                     [](const auto& a, const auto& b) { return a.first > b.first; });
           if (found.size() > 40) found.resize(40);
           Guess guess{shape, {size * narrow, size}, thin * stroke, 0, {}};
+          const double ink = drawn.ink.dot(drawn.ink) / (scale * scale);
           for (const auto& [score, place] : found) {
-            guess.worth += (score - 0.5) * (score - 0.5);
+            guess.worth += ink * (score - 0.5) * (score - 0.5);
             guess.places.emplace_back(place / scale);
           }
           guesses.push_back(guess);
@@ -125,18 +139,93 @@ std::vector<Guess> rough_guesses(const InkMap& map, const std::vector<Shape>& sh
   return guesses;
 }
 
-/// The best guess of each shape, stroke and range of sizes (small ones fit in many places, so that
-/// the large would never have their turn), 80 at most.
+/// The best guesses of each shape, eight at most, of other strokes and sizes each (small ones fit
+/// in many places, so that the large would never have their turn).
 std::vector<Guess> best_of_each(const std::vector<Guess>& guesses) {
-  std::set<std::array<int, 4>> had;
+  std::map<std::pair<Outline, Fill>, std::set<std::pair<int, int>>> had;
   std::vector<Guess> best;
   for (const auto& guess : guesses)
-    if (best.size() < 80 &&
-        had.insert({static_cast<int>(guess.shape.outline), static_cast<int>(guess.shape.fill),
-                    cvRound(4 * guess.stroke), cvRound(std::log(guess.box.height) / std::log(1.2))})
-            .second)
+    if (auto& sizes = had[{guess.shape.outline, guess.shape.fill}];
+        sizes.size() < 8 && sizes
+                                .insert({cvRound(4 * guess.stroke),
+                                         cvRound(std::log(guess.box.height) / std::log(1.2))})
+                                .second)
       best.push_back(guess);
   return best;
+}
+
+/// The thickness of the ink round some holes [px]: as far as it covers more than half of the way
+/// round them that it covers at most (a blur makes that less than all). Lines and bars that meet
+/// there cover less.
+double stroke_round(const cv::Mat& coverage, const cv::Mat& holes) {
+  cv::Mat away;
+  cv::distanceTransform(holes == 0, away, cv::DIST_L2, 5);
+  std::map<int, std::pair<double, int>> rings;  // ink and pixels by distance
+  for (int y = 0; y < coverage.rows; ++y)
+    for (int x = 0; x < coverage.cols; ++x)
+      if (const float far = away.at<float>(y, x); far > 0 && far < 40) {
+        auto& ring = rings[cvFloor(far)];
+        ring.first += coverage.at<float>(y, x);
+        ++ring.second;
+      }
+  double stroke = 0, most = 0;
+  for (const auto& [far, ring] : rings) {
+    const double share = ring.first / ring.second;
+    if (share < most / 2) break;
+    most = std::max(most, share);
+    stroke += share;
+  }
+  return std::max(1.0, stroke);
+}
+
+/// Open markers by the paper that they enclose: holes in the ink of one size, three or more. A line
+/// or a bar that ends at a marker or lies behind it leaves its hole as it is.
+std::vector<Guess> guesses_of_holes(const InkMap& map, const std::vector<Shape>& shapes) {
+  cv::Mat paper = map.coverage < 0.3F, labels, stats, centres;
+  paper.setTo(0, map.unknown);
+  const int n = cv::connectedComponentsWithStats(paper, labels, stats, centres, 4);
+  const int largest = std::min(paper.cols, paper.rows) / 8;
+  struct Hole {
+    int label;
+    cv::Rect box;
+  };
+  std::vector<Hole> holes;
+  for (int i = 1; i < n; ++i) {
+    const cv::Rect box(stats.at<int>(i, cv::CC_STAT_LEFT), stats.at<int>(i, cv::CC_STAT_TOP),
+                       stats.at<int>(i, cv::CC_STAT_WIDTH), stats.at<int>(i, cv::CC_STAT_HEIGHT));
+    const auto [low, high] = std::minmax(box.width, box.height);
+    if (low >= 3 && high <= largest && high < 2 * low) holes.push_back({i, box});
+  }
+  const auto alike = [](int a, int b) { return std::abs(a - b) <= std::max(1.0, 0.1 * a); };
+  std::vector<Guess> guesses;
+  for (std::vector<bool> had(holes.size()); const auto& first : holes) {
+    if (had[static_cast<std::size_t>(&first - holes.data())]) continue;
+    Guess guess;
+    cv::Mat group = cv::Mat::zeros(paper.size(), CV_8U);
+    std::vector<int> widths, heights;
+    for (std::size_t i = 0; i < holes.size(); ++i) {
+      const auto& box = holes[i].box;
+      if (had[i] || !alike(first.box.width, box.width) || !alike(first.box.height, box.height))
+        continue;
+      had[i] = true;
+      group(box).setTo(255, labels(box) == holes[i].label);
+      guess.places.emplace_back(box.x + box.width / 2.0, box.y + box.height / 2.0);
+      widths.push_back(box.width);
+      heights.push_back(box.height);
+    }
+    if (guess.places.size() < 3) continue;
+    std::sort(widths.begin(), widths.end());
+    std::sort(heights.begin(), heights.end());
+    guess.stroke = stroke_round(map.coverage, group);
+    guess.box = cv::Size2d(widths[widths.size() / 2] + 2 * guess.stroke,
+                           heights[heights.size() / 2] + 2 * guess.stroke);
+    for (const auto& shape : shapes) {
+      if (shape.fill != Fill::open || !is_proportioned(shape.outline, guess.box)) continue;
+      guess.shape = shape;
+      guesses.push_back(guess);
+    }
+  }
+  return guesses;
 }
 
 InkMap coarse(const InkMap& map, double scale) {
@@ -220,8 +309,8 @@ Guess refined(const Sizes::Level& level, Guess guess) {
             trial.box.width *= 1 + wide * way;
             trial.box.height *= 1 + high * way;
             trial.stroke *= 1 + thick * way;
-            const double thickest = is_strokes(guess.shape.outline) ? 0.3 : 0.45;
-            if (trial.stroke < 0.5 || trial.stroke > thickest * trial.box.width ||
+            if (trial.stroke < 0.5 ||
+                trial.stroke > thickest_stroke(guess.shape) * trial.box.width ||
                 !is_proportioned(trial.shape.outline, trial.box))
               continue;
             if (const double now = resemblance(level, trial, blurred); now > most + 2e-3) {
@@ -260,8 +349,9 @@ std::vector<Guess> best_three_of_each(Sizes& sizes, std::vector<Guess> guesses) 
 
 std::optional<Template> search_drawn(const InkMap& map, const std::vector<Shape>& shapes) {
   Sizes sizes(map);
-  const auto guesses =
+  auto guesses =
       best_of_each(rough_guesses(map, shapes, std::max(1.0, stroke_width(map.coverage))));
+  for (auto& guess : guesses_of_holes(map, shapes)) guesses.push_back(guess);
   double most = 0;
   std::optional<Guess> best;
   for (const auto& guess : best_three_of_each(sizes, guesses)) {
@@ -272,10 +362,10 @@ std::optional<Template> search_drawn(const InkMap& map, const std::vector<Shape>
     const double ink = marker.ink.dot(marker.ink) / (level.scale * level.scale);
     double worth = 0;
     int good = 0;
-    for (const auto& place : finer.places) {
-      const auto found = fit(marker, level.sharp, place);
-      if (found.score < 0.6 || found.known < 0.8 || found.least_part < 0.6) continue;
-      worth += ink * (found.score - 0.5);
+    const auto markers = find_markers(level.sharp, {marker});
+    for (const auto& one : markers[0]) {
+      if (one.fit.score < 0.6 || one.fit.known < 0.8 || one.fit.least_part < 0.6) continue;
+      worth += ink * (one.fit.score - least_score) * distinct(marker, level.sharp, one.fit);
       ++good;
     }
     if (good < 2 || worth <= most) continue;
@@ -284,6 +374,7 @@ std::optional<Template> search_drawn(const InkMap& map, const std::vector<Shape>
   }
   if (!best) return std::nullopt;
   const auto marker = make_template(drawn_template(*best).ink, best->shape);
-  return typical(map, marker, best->places).value_or(marker);
+  const auto seen = typical(map, marker, best->places);
+  return seen ? make_template(trimmed(bare_ink(*seen), best->shape.outline), best->shape) : marker;
 }
 }  // namespace bedscope::digitise

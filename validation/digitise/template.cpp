@@ -78,10 +78,9 @@ cv::Point2d shift_between(const cv::Mat& ink, const cv::Mat& other) {
   return shift;
 }
 
-/// A triangle's box: of the drawn triangle that differs least from the silhouette of `ink`, which
-/// stands on its base. Absolute differences, so that bars and lines that stick out do not count
-/// much.
-cv::Rect2d triangle_box(const cv::Mat& ink) {
+/// The box of the drawn outline that differs least from the silhouette of `ink`. Absolute
+/// differences, so that bars and lines that stick out do not count much.
+cv::Rect2d box_of_outline(const cv::Mat& ink, Outline outline) {
   cv::Mat filled = ink.clone(), core;
   cv::erode(silhouette(ink), core, cv::Mat::ones(3, 3, CV_8U));
   filled.setTo(1, core);
@@ -91,7 +90,7 @@ cv::Rect2d triangle_box(const cv::Mat& ink) {
                              start.height};
   const auto difference = [&](const std::array<double, 4>& p) {
     const auto drawn =
-        draw_shape({Outline::triangle, Fill::filled}, {p[2], p[3]}, 1, ink.size(), {p[0], p[1]});
+        draw_shape({outline, Fill::filled}, {p[2], p[3]}, 1, ink.size(), {p[0], p[1]});
     return cv::norm(filled, drawn, cv::NORM_L1);
   };
   double least = difference(best);
@@ -166,6 +165,50 @@ cv::Point2d nearest_peak(const InkMap& map, const Template& marker, cv::Point2d 
   return cv::Point2d(there.tl() + best) + cv::Point2d(size.width / 2.0, size.height / 2.0);
 }
 
+/// The part of a map that a template of `size` covers near `place`; nothing beyond its edges is
+/// known.
+struct Part {
+  cv::Mat seen, unknown;
+  cv::Point middle;  ///< the page's pixel in its middle
+};
+
+/// Nothing where less than a third of it is on the map.
+std::optional<Part> part_of(const InkMap& map, cv::Point2d place, cv::Size size) {
+  Part part{cv::Mat::zeros(size, CV_32F),
+            cv::Mat(size, CV_8U, cv::Scalar(255)),
+            {cvFloor(place.x), cvFloor(place.y)}};
+  const cv::Rect wanted(part.middle - cv::Point(size.width / 2, size.height / 2), size);
+  const cv::Rect there = wanted & cv::Rect(0, 0, map.coverage.cols, map.coverage.rows);
+  if (there.area() < wanted.area() / 3) return std::nullopt;
+  map.coverage(there).copyTo(part.seen(there - wanted.tl()));
+  map.unknown(there).copyTo(part.unknown(there - wanted.tl()));
+  return part;
+}
+
+/// What a model of a template explains of a part: 1 all, 0 no more than paper. Missing ink counts
+/// in full; extra ink may be a line or a bar and counts less.
+double explained(const Template& marker, const cv::Mat& model, const Part& part) {
+  const bool strokes = is_strokes(marker.shape.outline);
+  const double inner = strokes ? 0.25 : 0.5, outer = strokes ? 0.1 : 0.15;
+  double sum = 0, total = 0, around = 0, n_around = 0;
+  for (int y = 0; y < model.rows; ++y)
+    for (int x = 0; x < model.cols; ++x) {
+      if (part.unknown.at<uchar>(y, x) != 0) continue;
+      const double m = std::clamp(model.at<float>(y, x), 0.0F, 1.0F);
+      const double rest = part.seen.at<float>(y, x) - m;
+      const double weight = rest < 0 ? 1.0 : marker.inside.at<uchar>(y, x) != 0 ? inner : outer;
+      sum += m * m - weight * rest * rest;
+      total += m * m;
+      if (m < 0.1) {
+        around += part.seen.at<float>(y, x);
+        ++n_around;
+      }
+    }
+  // Strokes would fit anywhere within a patch of ink.
+  if (strokes && around > 0.6 * n_around) sum = 0;
+  return total > 0 ? sum / total : -1;
+}
+
 }  // namespace
 
 std::vector<Shape> candidates(const std::optional<Shape>& asked) {
@@ -206,7 +249,7 @@ std::pair<Shape, double> recognise(const cv::Mat& ink, const std::vector<Shape>&
                  cv::Matx23d(scale, 0, size.width / 2.0 - 0.5 - (cx - 0.5) * scale, 0, scale,
                              size.height / 2.0 - 0.5 - (cy - 0.5) * scale),
                  size, cv::INTER_LINEAR, cv::BORDER_CONSTANT, cv::Scalar(0));
-  // Both a little blurred, as scans and compressed pictures are.
+  // Both a little blurred; the drawn one also more, as scans and compressed pictures are.
   cv::GaussianBlur(small, small, {}, 0.7);
   Shape best;
   double most = -1;
@@ -214,16 +257,23 @@ std::pair<Shape, double> recognise(const cv::Mat& ink, const std::vector<Shape>&
   for (const auto& shape : among)
     for (const double share : {0.07, 0.12, 0.18, 0.26}) {
       const double stroke = std::max(0.7, share * std::min(drawn.width, drawn.height));
-      cv::Mat candidate = draw_shape(shape, drawn, stroke, size);
-      cv::GaussianBlur(candidate, candidate, {}, 0.7);
-      const double now = correlation(small, candidate);
-      if (now > most) {
-        most = now;
-        best = shape;
+      const cv::Mat candidate = draw_shape(shape, drawn, stroke, size);
+      for (const double blur : {0.7, 1.4}) {
+        cv::Mat blurred_candidate;
+        cv::GaussianBlur(candidate, blurred_candidate, {}, blur);
+        const double now = correlation(small, blurred_candidate);
+        if (now > most) {
+          most = now;
+          best = shape;
+        }
       }
       if (shape.fill == Fill::filled) break;
     }
   return {best, most};
+}
+
+cv::Mat bare_ink(const Template& marker) {
+  return marker.ink({margin, marker.ink.rows - margin}, {margin, marker.ink.cols - margin}).clone();
 }
 
 Template bare_template(const cv::Mat& ink, const Shape& shape) {
@@ -237,13 +287,22 @@ Template bare_template(const cv::Mat& ink, const Shape& shape) {
   return marker;
 }
 
+cv::Mat trimmed(const cv::Mat& ink, Outline outline) {
+  if (is_strokes(outline)) return ink;
+  const auto box = box_of_outline(ink, outline);
+  return cv::min(
+      ink, draw_shape(
+               {outline, Fill::filled}, {box.width + 1, box.height + 1}, 1, ink.size(),
+               {box.x + box.width / 2 - ink.cols / 2.0, box.y + box.height / 2 - ink.rows / 2.0}));
+}
+
 Template make_template(const cv::Mat& ink, const Shape& shape) {
   Template marker = bare_template(ink, shape);
   const cv::Point2d middle(marker.ink.cols / 2.0, marker.ink.rows / 2.0);
   if (is_triangle(shape.outline)) {
     const int quarters = quarter_turns(shape.outline);
     const cv::Mat standing = turned(marker.ink, quarters);
-    const auto box = triangle_box(standing);
+    const auto box = box_of_outline(standing, Outline::triangle);
     const auto rule =
         reference_of({Outline::triangle, shape.fill}, box.size(), stroke_width(marker.ink));
     const cv::Point2d standing_middle(standing.cols / 2.0, standing.rows / 2.0);
@@ -282,14 +341,9 @@ Fit fit(const Template& marker, const InkMap& map, cv::Point2d near) {
   Fit found;
   const auto guess = nearest_peak(map, marker, near);
   const cv::Size size = marker.ink.size();
-  const cv::Point middle(cvFloor(guess.x), cvFloor(guess.y));
-  const cv::Rect wanted(middle.x - size.width / 2, middle.y - size.height / 2, size.width,
-                        size.height);
-  const cv::Rect there = wanted & cv::Rect(0, 0, map.coverage.cols, map.coverage.rows);
-  if (there.area() < wanted.area() / 3) return found;
-  cv::Mat seen = cv::Mat::zeros(size, CV_32F), unknown = cv::Mat(size, CV_8U, cv::Scalar(255));
-  map.coverage(there).copyTo(seen(there - wanted.tl()));
-  map.unknown(there).copyTo(unknown(there - wanted.tl()));
+  const auto part = part_of(map, guess, size);
+  if (!part) return found;
+  const auto& [seen, unknown, middle] = *part;
   const double reach = 0.6 * std::max(marker.box.width, marker.box.height);
   cv::Point2d origin = guess;
   cv::Mat model;
@@ -325,39 +379,28 @@ Fit fit(const Template& marker, const InkMap& map, cv::Point2d near) {
     if (cv::norm(change) < 2e-3) break;
   }
   model = laid(marker, origin, middle);
-  double explained = 0, total = 0, all = 0, around = 0, n_around = 0;
-  const bool strokes = is_strokes(marker.shape.outline);
-  const double inner = strokes ? 0.25 : 0.5, outer = strokes ? 0.1 : 0.15;
+  double all = 0, known = 0;
   std::array<double, 8> there_of{}, ink_of{};
-  const cv::Point2d centre = origin - cv::Point2d(wanted.tl());
+  const cv::Point2d centre =
+      origin - cv::Point2d(middle - cv::Point(size.width / 2, size.height / 2));
   const double core = 0.2 * std::min(marker.box.width, marker.box.height);
   for (int y = 0; y < size.height; ++y)
     for (int x = 0; x < size.width; ++x) {
       const double m = std::clamp(model.at<float>(y, x), 0.0F, 1.0F);
       all += m * m;
       if (unknown.at<uchar>(y, x) != 0) continue;
-      const double rest = seen.at<float>(y, x) - m;
-      // Missing ink counts in full; extra ink may be a line or a bar and counts less.
-      const double weight = rest < 0 ? 1.0 : marker.inside.at<uchar>(y, x) != 0 ? inner : outer;
-      explained += m * m - weight * rest * rest;
-      total += m * m;
-      if (m < 0.1) {
-        around += seen.at<float>(y, x);
-        ++n_around;
-      }
+      known += m * m;
       const cv::Point2d arm(x + 0.5 - centre.x, y + 0.5 - centre.y);
       if (cv::norm(arm) < core) continue;
-      const auto part =
+      const auto eighth =
           static_cast<std::size_t>(cvRound(std::atan2(arm.y, arm.x) * 4 / std::numbers::pi) + 8) %
           8;
-      there_of[part] += m * std::min<double>(m, seen.at<float>(y, x));
-      ink_of[part] += m * m;
+      there_of[eighth] += m * std::min<double>(m, seen.at<float>(y, x));
+      ink_of[eighth] += m * m;
     }
-  // Strokes would fit anywhere within a patch of ink.
-  if (strokes && around > 0.6 * n_around) explained = 0;
   std::vector<double> parts{1, 1};
-  for (std::size_t part = 0; part < 8; ++part)
-    if (ink_of[part] > 0.03 * all) parts.push_back(there_of[part] / ink_of[part]);
+  for (std::size_t eighth = 0; eighth < 8; ++eighth)
+    if (ink_of[eighth] > 0.03 * all) parts.push_back(there_of[eighth] / ink_of[eighth]);
   std::partial_sort(parts.begin(), parts.begin() + 2, parts.end());
   found.least_part = parts[0];
   found.next_part = parts[1];
@@ -365,9 +408,23 @@ Fit fit(const Template& marker, const InkMap& map, cv::Point2d near) {
   found.origin = origin;
   found.u[0] = std::sqrt(variance * yy / det);
   found.u[1] = std::sqrt(variance * xx / det);
-  found.score = total > 0 ? explained / total : -1;
-  found.known = all > 0 ? total / all : 0;
+  found.score = explained(marker, model, *part);
+  found.known = all > 0 ? known / all : 0;
   return found;
 }
 
+double distinct(const Template& marker, const InkMap& map, const Fit& where) {
+  const auto beside = [&](cv::Point2d by) {
+    const auto part = part_of(map, where.origin + by, marker.ink.size());
+    return part ? explained(marker, laid(marker, where.origin + by, part->middle), *part) : 0;
+  };
+  double most = 0;
+  for (int sixteenth = 0; sixteenth < 8; ++sixteenth) {
+    const double angle = sixteenth * std::numbers::pi / 8;
+    const cv::Point2d half(std::cos(angle) * marker.box.width / 2,
+                           std::sin(angle) * marker.box.height / 2);
+    most = std::max(most, std::min(beside(half), beside(-half)));
+  }
+  return where.score - most > 0.1 ? where.score - most : 0;
+}
 }  // namespace bedscope::digitise

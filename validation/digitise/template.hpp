@@ -26,6 +26,9 @@ struct Template {
   double reference_u[2] = {0, 0};
 };
 
+/// The template's ink without its margin.
+cv::Mat bare_ink(const Template& marker);
+
 /// Where a template lies best.
 struct Fit {
   cv::Point2d origin;     ///< of the template, on the page
@@ -45,6 +48,10 @@ std::vector<Shape> candidates(const std::optional<Shape>& asked);
 /// A template without its reference point, to try a shape.
 Template bare_template(const cv::Mat& ink, const Shape& shape);
 
+/// The picture of a marker without what sticks out of its outline by more than half a pixel: bars
+/// and lines. Strokes as they are.
+cv::Mat trimmed(const cv::Mat& ink, Outline outline);
+
 /// A template from a picture of a marker, its reference point by symmetry and by the rules of
 /// reference_of().
 Template make_template(const cv::Mat& ink, const Shape& shape);
@@ -52,6 +59,11 @@ Template make_template(const cv::Mat& ink, const Shape& shape);
 /// Least squares over the shift from the best whole pixel near `near`, with weights that leave out
 /// what does not belong to the marker (lines through it, error bars, neighbours).
 Fit fit(const Template& marker, const InkMap& map, cv::Point2d near);
+
+/// By how much a template lies better than half its size farther on both sides, along the line or
+/// bar where that is least: what a stroke that goes through explains is not the marker's. 0 below
+/// 0.1, what a disc a quarter wider than its line lacks there.
+double distinct(const Template& marker, const InkMap& map, const Fit& where);
 
 /// The part of `image` of the size of `like` whose middle is at `origin` (sub-pixel, cubic), with
 /// `outside` beyond the edges.
