@@ -46,6 +46,15 @@ bool goes_on(const InkMap& map, const Template& marker, cv::Point2d origin) {
   return cv::countNonZero(ink & (grown - marker.inside)) > 0;
 }
 
+/// The breadth of a piece of ink across its longest direction, as a share of its length: of the
+/// standard deviations.
+double breadth_of(const cv::Mat& ink) {
+  const auto m = cv::moments(ink);
+  const double half = (m.mu20 + m.mu02) / 2;
+  const double apart = std::hypot((m.mu20 - m.mu02) / 2, m.mu11);
+  return std::sqrt((half - apart) / (half + apart));
+}
+
 }  // namespace
 
 std::optional<Template> learn(const InkMap& map, const MarkerQuery& query) {
@@ -89,6 +98,7 @@ std::optional<Template> markers_on_line(const InkMap& map) {
   const double stroke = stroke_width(map.coverage);
   const auto marker = learn(map, {});
   if (!marker || std::min(marker->box.width, marker->box.height) < 2.0 * stroke) return {};
+  if (breadth_of(marker->ink) < 0.5) return {};  // dashes
   const auto found = find_markers(map, {*marker});
   std::vector<double> scores;
   double on_line = 0;

@@ -68,17 +68,17 @@ void cover(InkMap& map, const Template& marker, cv::Point2d origin) {
   map.coverage(there).setTo(0, ink > 0.15F);
 }
 
-}  // namespace
+/// The good fits near `places` of template `which`.
+void add_candidates(std::vector<Candidate>& candidates, const InkMap& map, const Template& marker,
+                    std::size_t which, const std::vector<cv::Point2d>& places) {
+  for (const auto place : places)
+    if (const auto here = fit(marker, map, place); good(here)) candidates.push_back({which, here});
+}
 
-std::vector<std::vector<Marker>> find_markers(const InkMap& map,
-                                              const std::vector<Template>& templates) {
+std::vector<std::vector<Marker>> best_first(const InkMap& map,
+                                            const std::vector<Template>& templates,
+                                            std::vector<Candidate> candidates) {
   std::vector<std::vector<Marker>> found(templates.size());
-  std::vector<Candidate> candidates;
-  for (std::size_t t = 0; t < templates.size(); ++t)
-    for (const auto guess : guesses(map, templates[t])) {
-      const auto here = fit(templates[t], map, guess);
-      if (good(here)) candidates.push_back({t, here});
-    }
   std::sort(candidates.begin(), candidates.end(),
             [](const auto& a, const auto& b) { return worth(a.fit) > worth(b.fit); });
   InkMap left{map.coverage.clone(), map.unknown.clone()};
@@ -102,6 +102,23 @@ std::vector<std::vector<Marker>> find_markers(const InkMap& map,
     cover(left, marker, again.origin);
   }
   return found;
+}
+
+}  // namespace
+
+std::vector<std::vector<Marker>> find_markers(const InkMap& map,
+                                              const std::vector<Template>& templates) {
+  std::vector<Candidate> candidates;
+  for (std::size_t t = 0; t < templates.size(); ++t)
+    add_candidates(candidates, map, templates[t], t, guesses(map, templates[t]));
+  return best_first(map, templates, std::move(candidates));
+}
+
+std::vector<Marker> markers_near(const InkMap& map, const Template& marker,
+                                 const std::vector<cv::Point2d>& places) {
+  std::vector<Candidate> candidates;
+  add_candidates(candidates, map, marker, 0, places);
+  return best_first(map, {marker}, std::move(candidates)).front();
 }
 
 double little_alike(const std::vector<Marker>& markers) {

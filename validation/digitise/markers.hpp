@@ -39,6 +39,10 @@ std::optional<Template> markers_on_line(const InkMap& map);
 std::vector<std::vector<Marker>> find_markers(const InkMap& map,
                                               const std::vector<Template>& templates);
 
+/// The same of one template, near `places` alone.
+std::vector<Marker> markers_near(const InkMap& map, const Template& marker,
+                                 const std::vector<cv::Point2d>& places);
+
 /// The score half way from the least one to that of the median marker: one below it resembles the
 /// others little. 0 for fewer than four, which show no rule.
 double little_alike(const std::vector<Marker>& markers);

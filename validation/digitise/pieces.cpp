@@ -129,7 +129,7 @@ std::optional<Template> on_lines(const InkMap& map, const cv::Mat& mask,
     if (!group || group->pieces.size() < 2) continue;
     const auto marker = template_of(*group, cores);
     // Once more with the whole ink: the opening has rounded the corners.
-    return typical(map, marker, middles_of(*group)).value_or(marker);
+    return trimmed(typical(map, marker, middles_of(*group)).value_or(marker), filled);
   }
   return std::nullopt;
 }

@@ -362,8 +362,7 @@ std::optional<Template> search_drawn(const InkMap& map, const std::vector<Shape>
     const double ink = marker.ink.dot(marker.ink) / (level.scale * level.scale);
     double worth = 0;
     int good = 0;
-    const auto markers = find_markers(level.sharp, {marker});
-    for (const auto& one : markers[0]) {
+    for (const auto& one : markers_near(level.sharp, marker, finer.places)) {
       if (one.fit.score < 0.6 || one.fit.known < 0.8 || one.fit.least_part < 0.6) continue;
       worth += ink * (one.fit.score - least_score) * distinct(marker, level.sharp, one.fit);
       ++good;
@@ -375,6 +374,6 @@ std::optional<Template> search_drawn(const InkMap& map, const std::vector<Shape>
   if (!best) return std::nullopt;
   const auto marker = make_template(drawn_template(*best).ink, best->shape);
   const auto seen = typical(map, marker, best->places);
-  return seen ? make_template(trimmed(bare_ink(*seen), best->shape.outline), best->shape) : marker;
+  return seen ? trimmed(*seen, {best->shape}) : marker;
 }
 }  // namespace bedscope::digitise

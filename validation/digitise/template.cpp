@@ -12,11 +12,42 @@
 namespace bedscope::digitise {
 namespace {
 
-/// `ink` shifted by (dx, dy) pixels.
-cv::Mat shifted(const cv::Mat& ink, cv::Point2d by, int interpolation = cv::INTER_CUBIC) {
-  cv::Mat moved;
-  cv::warpAffine(ink, moved, cv::Matx23d(1, 0, by.x, 0, 1, by.y), ink.size(), interpolation,
-                 cv::BORDER_CONSTANT, cv::Scalar(0));
+/// The weights of the pixels at -1, 0, 1 and 2 for a place at 0 <= t < 1 (cubic convolution, Keys
+/// 1981, a = -1/2).
+std::array<float, 4> cubic(double t) {
+  const double s = 1 - t;
+  const auto near = [](double d) { return (1.5 * d - 2.5) * d * d + 1; };
+  const auto far = [](double d) { return ((-0.5 * d + 2.5) * d - 4) * d + 2; };
+  return {static_cast<float>(far(1 + t)), static_cast<float>(near(t)), static_cast<float>(near(s)),
+          static_cast<float>(far(1 + s))};
+}
+
+/// `ink` shifted by (dx, dy) pixels, paper round it. Of small images, so often that OpenCV's way of
+/// any affine map took most of the time; and it rounds the shift to a 32nd of a pixel.
+cv::Mat shifted(const cv::Mat& ink, cv::Point2d by) {
+  const int x0 = cvFloor(-by.x), y0 = cvFloor(-by.y);  // of the pixel that comes to the first one
+  const auto wx = cubic(-by.x - x0), wy = cubic(-by.y - y0);
+  const int rows = ink.rows, columns = ink.cols;
+  cv::Mat across(rows, columns, CV_32F), moved(rows, columns, CV_32F, cv::Scalar(0));
+  for (int y = 0; y < rows; ++y) {
+    const float* from = ink.ptr<float>(y);
+    float* to = across.ptr<float>(y);
+    for (int x = 0; x < columns; ++x) {
+      float sum = 0;
+      for (int k = 0; k < 4; ++k)
+        if (const int at = x + x0 - 1 + k; at >= 0 && at < columns) sum += wx[k] * from[at];
+      to[x] = sum;
+    }
+  }
+  for (int y = 0; y < rows; ++y) {
+    float* to = moved.ptr<float>(y);
+    for (int k = 0; k < 4; ++k) {
+      const int at = y + y0 - 1 + k;
+      if (at < 0 || at >= rows) continue;
+      const float* from = across.ptr<float>(at);
+      for (int x = 0; x < columns; ++x) to[x] += wy[k] * from[x];
+    }
+  }
   return moved;
 }
 
@@ -78,9 +109,14 @@ cv::Point2d shift_between(const cv::Mat& ink, const cv::Mat& other) {
   return shift;
 }
 
-/// The box of the drawn outline that differs least from the silhouette of `ink`. Absolute
-/// differences, so that bars and lines that stick out do not count much.
-cv::Rect2d box_of_outline(const cv::Mat& ink, Outline outline) {
+/// The drawn outline that differs least from a silhouette, and by how much of its area.
+struct Drawn {
+  cv::Rect2d box;
+  double differs = 0;
+};
+
+/// Absolute differences, so that bars and lines that stick out do not count much.
+Drawn drawn_like(const cv::Mat& ink, Outline outline) {
   cv::Mat filled = ink.clone(), core;
   cv::erode(silhouette(ink), core, cv::Mat::ones(3, 3, CV_8U));
   filled.setTo(1, core);
@@ -114,8 +150,9 @@ cv::Rect2d box_of_outline(const cv::Mat& ink, Outline outline) {
           }
         }
     }
-  return {best[0] + ink.cols / 2.0 - best[2] / 2, best[1] + ink.rows / 2.0 - best[3] / 2, best[2],
-          best[3]};
+  return {{best[0] + ink.cols / 2.0 - best[2] / 2, best[1] + ink.rows / 2.0 - best[3] / 2, best[2],
+           best[3]},
+          least / std::max(1.0, cv::sum(filled)[0])};
 }
 
 /// The image turned so that a triangle of this outline stands on its base, and back.
@@ -272,10 +309,6 @@ std::pair<Shape, double> recognise(const cv::Mat& ink, const std::vector<Shape>&
   return {best, most};
 }
 
-cv::Mat bare_ink(const Template& marker) {
-  return marker.ink({margin, marker.ink.rows - margin}, {margin, marker.ink.cols - margin}).clone();
-}
-
 Template bare_template(const cv::Mat& ink, const Shape& shape) {
   Template marker;
   cv::copyMakeBorder(ink, marker.ink, margin, margin, margin, margin, cv::BORDER_CONSTANT,
@@ -287,13 +320,25 @@ Template bare_template(const cv::Mat& ink, const Shape& shape) {
   return marker;
 }
 
-cv::Mat trimmed(const cv::Mat& ink, Outline outline) {
-  if (is_strokes(outline)) return ink;
-  const auto box = box_of_outline(ink, outline);
-  return cv::min(
-      ink, draw_shape(
-               {outline, Fill::filled}, {box.width + 1, box.height + 1}, 1, ink.size(),
-               {box.x + box.width / 2 - ink.cols / 2.0, box.y + box.height / 2 - ink.rows / 2.0}));
+Template trimmed(const Template& marker, const std::vector<Shape>& shapes) {
+  const cv::Mat ink =
+      marker.ink({margin, marker.ink.rows - margin}, {margin, marker.ink.cols - margin});
+  // What sticks out is less than an eighth of it, else it is another shape.
+  Drawn best{{}, 1.0 / 8};
+  Shape shape = marker.shape;
+  for (const auto& one : shapes) {
+    if (is_strokes(one.outline)) continue;
+    const auto drawn = drawn_like(ink, one.outline);
+    if (drawn.differs >= best.differs) continue;
+    best = drawn;
+    shape = one;
+  }
+  if (best.box.empty()) return marker;
+  const auto& box = best.box;
+  const cv::Mat outline =
+      draw_shape({shape.outline, Fill::filled}, {box.width + 1, box.height + 1}, 1, ink.size(),
+                 {box.x + box.width / 2 - ink.cols / 2.0, box.y + box.height / 2 - ink.rows / 2.0});
+  return make_template(cv::min(ink, outline), shape);
 }
 
 Template make_template(const cv::Mat& ink, const Shape& shape) {
@@ -302,7 +347,7 @@ Template make_template(const cv::Mat& ink, const Shape& shape) {
   if (is_triangle(shape.outline)) {
     const int quarters = quarter_turns(shape.outline);
     const cv::Mat standing = turned(marker.ink, quarters);
-    const auto box = box_of_outline(standing, Outline::triangle);
+    const auto box = drawn_like(standing, Outline::triangle).box;
     const auto rule =
         reference_of({Outline::triangle, shape.fill}, box.size(), stroke_width(marker.ink));
     const cv::Point2d standing_middle(standing.cols / 2.0, standing.rows / 2.0);
@@ -350,18 +395,20 @@ Fit fit(const Template& marker, const InkMap& map, cv::Point2d near) {
   double xx = 0, xy = 0, yy = 0, squares = 0, weights = 0;
   for (int step = 0; step < 15; ++step) {
     model = laid(marker, origin, middle);
-    cv::Mat gx, gy;
-    cv::Sobel(model, gx, CV_32F, 1, 0, 1, 0.5);
-    cv::Sobel(model, gy, CV_32F, 0, 1, 1, 0.5);
     double bx = 0, by = 0;
     xx = xy = yy = squares = weights = 0;
     for (int y = 0; y < size.height; ++y)
       for (int x = 0; x < size.width; ++x) {
         if (unknown.at<uchar>(y, x) != 0) continue;
-        const double rest = seen.at<float>(y, x) - model.at<float>(y, x);
+        const auto at = [&](int row, int column) {
+          return model.at<float>(std::clamp(row, 0, size.height - 1),
+                                 std::clamp(column, 0, size.width - 1));
+        };
+        const double rest = seen.at<float>(y, x) - at(y, x);
         // Geman and McClure's weight: what is off by a third of full coverage hardly counts.
-        const double w = 1 / std::pow(1 + rest * rest / 0.1, 2);
-        const double gradient_x = -gx.at<float>(y, x), gradient_y = -gy.at<float>(y, x);
+        const double root = 1 + rest * rest / 0.1, w = 1 / (root * root);
+        const double gradient_x = 0.5 * (at(y, x - 1) - at(y, x + 1)),
+                     gradient_y = 0.5 * (at(y - 1, x) - at(y + 1, x));
         xx += w * gradient_x * gradient_x;
         xy += w * gradient_x * gradient_y;
         yy += w * gradient_y * gradient_y;

@@ -26,9 +26,6 @@ struct Template {
   double reference_u[2] = {0, 0};
 };
 
-/// The template's ink without its margin.
-cv::Mat bare_ink(const Template& marker);
-
 /// Where a template lies best.
 struct Fit {
   cv::Point2d origin;     ///< of the template, on the page
@@ -48,13 +45,13 @@ std::vector<Shape> candidates(const std::optional<Shape>& asked);
 /// A template without its reference point, to try a shape.
 Template bare_template(const cv::Mat& ink, const Shape& shape);
 
-/// The picture of a marker without what sticks out of its outline by more than half a pixel: bars
-/// and lines. Strokes as they are.
-cv::Mat trimmed(const cv::Mat& ink, Outline outline);
-
 /// A template from a picture of a marker, its reference point by symmetry and by the rules of
 /// reference_of().
 Template make_template(const cv::Mat& ink, const Shape& shape);
+
+/// The template without what sticks out by more than half a pixel of the outline, of `shapes`, that
+/// its silhouette resembles most: bars and lines. As it is where none resembles it.
+Template trimmed(const Template& marker, const std::vector<Shape>& shapes);
 
 /// Least squares over the shift from the best whole pixel near `near`, with weights that leave out
 /// what does not belong to the marker (lines through it, error bars, neighbours).
