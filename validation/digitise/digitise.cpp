@@ -391,11 +391,18 @@ class Digitiser {
     complete(markers, page_.reduction(), page_.angle() != 0, colours_.lossy);
     found.shape = name_of(marker.shape);
     const cv::Point2d corner = area_.tl();
-    for (const auto& one : markers) {
+    std::vector<ErrorBar> bars;
+    if (series.error_bars) {
+      // Where their ink is seen, not where complete() takes the points to be.
+      std::vector<cv::Point2d> seen;
+      for (const auto& one : markers) seen.push_back(one.fit.origin + marker.reference);
+      bars = find_error_bars(map, marker, seen, with_line);
+    }
+    for (std::size_t i = 0; i < markers.size(); ++i) {
+      const auto& one = markers[i];
       auto point = to_point(one.at + corner, one.u[0], one.u[1]);
       if (series.error_bars) {
-        // Where its ink is seen, not where complete() takes the point to be.
-        const auto bar = find_error_bar(map, marker, one.fit.origin + marker.reference, with_line);
+        const auto& bar = bars[i];
         point.bar_pixel[0] = bar.lower + corner.y;
         point.bar_pixel[1] = bar.upper + corner.y;
         for (const double end : point.bar_pixel)

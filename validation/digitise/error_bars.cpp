@@ -44,10 +44,13 @@ struct Looker {
 struct End {
   double row = std::numeric_limits<double>::quiet_NaN();
   double half_cap = 0;
+  int thickness = 0;  ///< of the bar; 0: none is seen
 };
 
 /// The end of a stroke that leaves the marker's edge row `start` in direction `step` (+1 down).
-End end_of(const Looker& look, int x, int start, int step, double marker_width, bool with_line) {
+/// `thickness`: of the bar where others show it, else 0.
+End end_of(const Looker& look, int x, int start, int step, double marker_width, bool with_line,
+           int thickness) {
   const End none;
   std::vector<int> breadths;
   int y = start, last = start - step, broken = 0;
@@ -67,10 +70,12 @@ End end_of(const Looker& look, int x, int start, int step, double marker_width, 
   if (breadths.empty()) return none;
   auto sorted = breadths;
   std::sort(sorted.begin(), sorted.end());
-  const int thin = sorted[sorted.size() / 4];
+  // Of a short bar most rows are the cap's.
+  int thin = sorted[sorted.size() / 8];
+  if (thickness > 0) thin = std::min(thin, thickness);
   // A bar is thinner than the marker, and straight: it stays so over most of its length.
   if (thin > std::max(2.0, 0.55 * marker_width)) return none;
-  const auto wide = [&](int b) { return b >= 2 * thin + 2; };
+  const auto wide = [&](int b) { return b >= 1.5 * thin + 2.5; };
   // The cap: the wide rows at the end. Its middle is the value.
   int cap = 0;
   while (cap < static_cast<int>(breadths.size()) && wide(breadths[breadths.size() - 1 - cap]))
@@ -85,7 +90,7 @@ End end_of(const Looker& look, int x, int start, int step, double marker_width, 
       mass += across;
       moment += across * (row + 0.5);
     }
-    if (mass > 0) return {moment / mass, breadths.back() / 2.0};
+    if (mass > 0) return {moment / mass, breadths.back() / 2.0, thin};
   }
   // A marker's own shoulder is no bar, nor is a steep line; a line does not end in paper.
   const double lean = std::abs(look.centre(last, x) - look.centre(start, x));
@@ -95,20 +100,38 @@ End end_of(const Looker& look, int x, int start, int step, double marker_width, 
   const double at_last = std::min(1.0, look.on_bar(last, x)),
                beyond = std::min(1.0, look.on_bar(last + step, x));
   const double edge = at_last < 0.9 ? at_last - 1 : beyond;  // how far the ink reaches past the row
-  return {(step > 0 ? last + 1 : last) + step * edge, thin / 2.0};
+  return {(step > 0 ? last + 1 : last) + step * edge, thin / 2.0, thin};
 }
 
 }  // namespace
 
-ErrorBar find_error_bar(const InkMap& map, const Template& marker, cv::Point2d at, bool with_line) {
+ErrorBar find_error_bar(const InkMap& map, const Template& marker, cv::Point2d at, bool with_line,
+                        int thickness) {
   const Looker look{map};
   const cv::Point2d middle = at - marker.reference;
   const int x = cvFloor(at.x);
   const int above = cvFloor(middle.y - marker.box.height / 2 - 1.5);
   const int below = cvFloor(middle.y + marker.box.height / 2 + 1.5);
-  const auto lower = end_of(look, x, below, +1, marker.box.width, with_line);
-  const auto upper = end_of(look, x, above, -1, marker.box.width, with_line);
-  return {lower.row, upper.row, std::max(lower.half_cap, upper.half_cap)};
+  const auto lower = end_of(look, x, below, +1, marker.box.width, with_line, thickness);
+  const auto upper = end_of(look, x, above, -1, marker.box.width, with_line, thickness);
+  return {lower.row, upper.row, std::max(lower.half_cap, upper.half_cap),
+          std::max(lower.thickness, upper.thickness)};
+}
+
+std::vector<ErrorBar> find_error_bars(const InkMap& map, const Template& marker,
+                                      const std::vector<cv::Point2d>& at, bool with_line) {
+  std::vector<ErrorBar> bars;
+  std::vector<int> thicknesses;
+  for (const auto& place : at) {
+    bars.push_back(find_error_bar(map, marker, place, with_line));
+    if (bars.back().thickness > 0) thicknesses.push_back(bars.back().thickness);
+  }
+  if (3 * thicknesses.size() < at.size()) return bars;
+  std::sort(thicknesses.begin(), thicknesses.end());
+  for (std::size_t i = 0; i < at.size(); ++i)
+    if (std::isnan(bars[i].lower) || std::isnan(bars[i].upper))
+      bars[i] = find_error_bar(map, marker, at[i], with_line, thicknesses[thicknesses.size() / 2]);
+  return bars;
 }
 
 void drop_on_bars(const InkMap& map, const Template& marker, std::vector<Marker>& markers,

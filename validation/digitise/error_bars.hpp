@@ -10,11 +10,19 @@ struct ErrorBar {
   double lower = 0,
          upper = 0;     ///< rows of the ends (lower: the larger row); NaN where none is seen
   double half_cap = 0;  ///< half the width of the caps; of the bar where there are none [px]
+  int thickness = 0;    ///< [px]; 0 where none is seen
 };
 
 /// The bar of a marker at `at`, whose template is `marker`. `with_line`: the ink also draws a line
 /// through the markers, so that a stroke without a cap has to be upright and end in paper.
-ErrorBar find_error_bar(const InkMap& map, const Template& marker, cv::Point2d at, bool with_line);
+/// `thickness`: of the bar, where other markers show it, else 0.
+ErrorBar find_error_bar(const InkMap& map, const Template& marker, cv::Point2d at, bool with_line,
+                        int thickness = 0);
+
+/// The bars of a series' markers. Where a third of them or more have one, its thickness tells the
+/// cap of a bar so short that little else of it is seen.
+std::vector<ErrorBar> find_error_bars(const InkMap& map, const Template& marker,
+                                      const std::vector<cv::Point2d>& at, bool with_line);
 
 /// Leaves out of `markers` those that resemble the others little and lie on the bar of another one:
 /// where a cap or the marker's edge crosses it.

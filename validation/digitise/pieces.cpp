@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 #include <tuple>
 
+#include "validation/digitise/markers.hpp"
 #include "validation/digitise/stroke.hpp"
 #include "validation/digitise/typical.hpp"
 
@@ -107,7 +108,14 @@ Template template_of(const Group& group, const InkMap& map) {
 std::optional<Template> on_lines(const InkMap& map, const cv::Mat& mask,
                                  const std::vector<Shape>& shapes) {
   const double stroke = line_width(map.coverage);
-  for (const double factor : {1.5, 2.2}) {
+  std::vector<Shape> filled;
+  for (const auto& shape : shapes)
+    if (shape.fill == Fill::filled) filled.push_back(shape);
+  // Bars may be thicker than the line: the first opening that leaves a clear shape, else the one
+  // that leaves the clearest. A larger one cuts corners.
+  std::optional<Group> best;
+  InkMap best_cores;
+  for (const double factor : {1.5, 2.2, 3.2, 4.6}) {
     const int disc = 2 * cvRound(factor * stroke / 2 + 0.6) + 1;
     const cv::Mat element = cv::getStructuringElement(cv::MORPH_ELLIPSE, {disc, disc});
     cv::Mat opened, grown;
@@ -117,20 +125,24 @@ std::optional<Template> on_lines(const InkMap& map, const cv::Mat& mask,
     cv::Mat rest;
     cv::bitwise_not(grown, rest);
     cores.coverage.setTo(0, rest);
-    std::vector<Shape> filled;
-    for (const auto& shape : shapes)
-      if (shape.fill == Fill::filled) filled.push_back(shape);
     auto pieces = pieces_of(opened, cores);
     // Where strokes cross or turn they are thicker too, but not by much.
     std::erase_if(pieces, [&](const Piece& piece) {
       return std::min(piece.box.width, piece.box.height) < std::max(5.0, 2.6 * stroke);
     });
     const auto group = best_group(pieces, cores.coverage, candidates(std::nullopt), filled, 0.8);
-    if (!group || group->pieces.size() < 2) continue;
-    const auto marker = template_of(*group, cores);
-    // Once more with the whole ink: the opening has rounded the corners.
-    return trimmed(typical(map, marker, middles_of(*group)).value_or(marker), filled);
+    if (!group || group->pieces.size() < 2 || (best && group->resemblance <= best->resemblance))
+      continue;
+    best = group;
+    best_cores = cores;
+    if (best->resemblance > 0.95) break;
   }
-  return std::nullopt;
+  if (!best) return std::nullopt;
+  const auto marker = template_of(*best, best_cores);
+  // Once more with the whole ink: the opening has rounded the corners.
+  const auto whole = trimmed(typical(map, marker, middles_of(*best)).value_or(marker), filled);
+  // What lies in many more places than the opening left is a stretch of a line.
+  if (find_markers(map, {whole})[0].size() > 4 * best->pieces.size()) return std::nullopt;
+  return whole;
 }
 }  // namespace bedscope::digitise
