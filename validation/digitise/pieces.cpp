@@ -141,8 +141,13 @@ std::optional<Template> on_lines(const InkMap& map, const cv::Mat& mask,
   const auto marker = template_of(*best, best_cores);
   // Once more with the whole ink: the opening has rounded the corners.
   const auto whole = trimmed(typical(map, marker, middles_of(*best)).value_or(marker), filled);
-  // What lies in many more places than the opening left is a stretch of a line.
-  if (find_markers(map, {whole})[0].size() > 4 * best->pieces.size()) return std::nullopt;
+  // What lies in many more places than the opening left, and there not much better than beside, is
+  // a stretch of a line.
+  const auto found = find_markers(map, {whole})[0];
+  double better = 0;
+  for (const auto& one : found)
+    better += distinct(whole, map, one.fit) / static_cast<double>(found.size());
+  if (found.size() > 4 * best->pieces.size() && better < 0.3) return std::nullopt;
   return whole;
 }
 }  // namespace bedscope::digitise

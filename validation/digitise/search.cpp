@@ -349,8 +349,9 @@ std::vector<Guess> best_three_of_each(Sizes& sizes, std::vector<Guess> guesses) 
 
 std::optional<Template> search_drawn(const InkMap& map, const std::vector<Shape>& shapes) {
   Sizes sizes(map);
-  auto guesses =
-      best_of_each(rough_guesses(map, shapes, std::max(1.0, stroke_width(map.coverage))));
+  // Where filled markers hold most ink, that of the ridges is the line's.
+  const double stroke = std::min(stroke_width(map.coverage), line_width(map.coverage));
+  auto guesses = best_of_each(rough_guesses(map, shapes, stroke));
   for (auto& guess : guesses_of_holes(map, shapes)) guesses.push_back(guess);
   double most = 0;
   std::optional<Guess> best;
