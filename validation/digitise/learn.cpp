@@ -33,6 +33,14 @@ double worth(const InkMap& map, const Template& marker) {
   return sum;
 }
 
+/// Of markers that stand alone the bars that stick out by more than two pixels; their edges, which
+/// may be blurred, stay as they are.
+Template without_bars(const Template& marker, const std::vector<Shape>& shapes) {
+  const auto bare = trimmed(marker, shapes);
+  return marker.box.width > bare.box.width + 2 || marker.box.height > bare.box.height + 2 ? bare
+                                                                                          : marker;
+}
+
 /// Whether ink goes on beside a marker: a line or a bar leaves it.
 bool goes_on(const InkMap& map, const Template& marker, cv::Point2d origin) {
   cv::Mat grown;
@@ -70,7 +78,7 @@ std::optional<Template> learn(const InkMap& map, const MarkerQuery& query) {
   const auto alone = best_group(pieces, map.coverage, query.among, shapes, 0.8);
   if (alone && (alone->ink > much * all ||
                 (alone->pieces.size() >= 3 && (query.shape || alone->resemblance > 0.88))))
-    return template_of(*alone, map);
+    return without_bars(template_of(*alone, map), shapes);
   const auto filled = on_lines(map, mask, shapes);
   // Crossings of lines and bars look like small filled markers, but hold little of the ink; patches
   // of a line lie little better than beside. A marker's whole worth is a fifth of its ink, at half

@@ -13,11 +13,11 @@ namespace bedscope::digitise {
 namespace {
 
 /// The weights of the pixels at -1, 0, 1 and 2 for a place at 0 <= t < 1 (cubic convolution, Keys
-/// 1981, a = -1/2).
+/// 1981, a = -3/4).
 std::array<float, 4> cubic(double t) {
   const double s = 1 - t;
-  const auto near = [](double d) { return (1.5 * d - 2.5) * d * d + 1; };
-  const auto far = [](double d) { return ((-0.5 * d + 2.5) * d - 4) * d + 2; };
+  const auto near = [](double d) { return (1.25 * d - 2.25) * d * d + 1; };
+  const auto far = [](double d) { return ((-0.75 * d + 3.75) * d - 6) * d + 3; };
   return {static_cast<float>(far(1 + t)), static_cast<float>(near(t)), static_cast<float>(near(s)),
           static_cast<float>(far(1 + s))};
 }
@@ -222,18 +222,23 @@ std::optional<Part> part_of(const InkMap& map, cv::Point2d place, cv::Size size)
   return part;
 }
 
-/// What a model of a template explains of a part: 1 all, 0 no more than paper. Missing ink counts
-/// in full; extra ink may be a line or a bar and counts less.
-double explained(const Template& marker, const cv::Mat& model, const Part& part) {
+/// What a template laid at `origin`, the `model`, explains of a part: 1 all, 0 no more than paper.
+/// Missing ink counts in full; extra ink may be a line or a bar and counts less: inside of the
+/// marker more, but not in the middle quarter of an open one, where its bar is.
+double explained(const Template& marker, cv::Point2d origin, const cv::Mat& model,
+                 const Part& part) {
   const bool strokes = is_strokes(marker.shape.outline);
   const double inner = strokes ? 0.25 : 0.5, outer = strokes ? 0.1 : 0.15;
+  const double bar = marker.shape.fill == Fill::open ? marker.box.width / 8 : 0;
+  const double centre = origin.x - (part.middle.x - model.cols / 2);
   double sum = 0, total = 0, around = 0, n_around = 0;
   for (int y = 0; y < model.rows; ++y)
     for (int x = 0; x < model.cols; ++x) {
       if (part.unknown.at<uchar>(y, x) != 0) continue;
       const double m = std::clamp(model.at<float>(y, x), 0.0F, 1.0F);
       const double rest = part.seen.at<float>(y, x) - m;
-      const double weight = rest < 0 ? 1.0 : marker.inside.at<uchar>(y, x) != 0 ? inner : outer;
+      const bool within = marker.inside.at<uchar>(y, x) != 0 && std::abs(x + 0.5 - centre) >= bar;
+      const double weight = rest < 0 ? 1.0 : within ? inner : outer;
       sum += m * m - weight * rest * rest;
       total += m * m;
       if (m < 0.1) {
@@ -323,6 +328,11 @@ Template bare_template(const cv::Mat& ink, const Shape& shape) {
 Template trimmed(const Template& marker, const std::vector<Shape>& shapes) {
   const cv::Mat ink =
       marker.ink({margin, marker.ink.rows - margin}, {margin, marker.ink.cols - margin});
+  if (is_strokes(marker.shape.outline)) {
+    cv::Mat mirrored;
+    cv::flip(ink, mirrored, 1);
+    return make_template(cv::min(ink, mirrored), marker.shape);
+  }
   // What sticks out is less than an eighth of it, else it is another shape.
   Drawn best{{}, 1.0 / 8};
   Shape shape = marker.shape;
@@ -455,7 +465,7 @@ Fit fit(const Template& marker, const InkMap& map, cv::Point2d near) {
   found.origin = origin;
   found.u[0] = std::sqrt(variance * yy / det);
   found.u[1] = std::sqrt(variance * xx / det);
-  found.score = explained(marker, model, *part);
+  found.score = explained(marker, origin, model, *part);
   found.known = all > 0 ? known / all : 0;
   return found;
 }
@@ -463,7 +473,9 @@ Fit fit(const Template& marker, const InkMap& map, cv::Point2d near) {
 double distinct(const Template& marker, const InkMap& map, const Fit& where) {
   const auto beside = [&](cv::Point2d by) {
     const auto part = part_of(map, where.origin + by, marker.ink.size());
-    return part ? explained(marker, laid(marker, where.origin + by, part->middle), *part) : 0;
+    return part ? explained(marker, where.origin + by,
+                            laid(marker, where.origin + by, part->middle), *part)
+                : 0;
   };
   double most = 0;
   for (int sixteenth = 0; sixteenth < 8; ++sixteenth) {

@@ -50,7 +50,8 @@ Template bare_template(const cv::Mat& ink, const Shape& shape);
 Template make_template(const cv::Mat& ink, const Shape& shape);
 
 /// The template without what sticks out by more than half a pixel of the outline, of `shapes`, that
-/// its silhouette resembles most: bars and lines. As it is where none resembles it.
+/// its silhouette resembles most: bars and lines. As it is where none resembles it. Of plus, x and
+/// asterisk what their mirror image has too: a line runs through them one way.
 Template trimmed(const Template& marker, const std::vector<Shape>& shapes);
 
 /// Least squares over the shift from the best whole pixel near `near`, with weights that leave out

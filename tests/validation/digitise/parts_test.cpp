@@ -130,6 +130,15 @@ TEST(Rules, AFrameIsFoundBelowAPixel) {
   EXPECT_DOUBLE_EQ(rules.rows[0].to, 360);
 }
 
+TEST(Rules, GridLinesTellThePlotWhereAFrameInThePapersColourCutsThem) {
+  Rules rules;
+  for (const double y : {60.0, 120.0, 180.0}) rules.rows.push_back({y, 54, 646, 2, 0});
+  for (const double x : {150.0, 300.0, 450.0}) rules.columns.push_back({x, 24, 276, 2, 0});
+  const auto area = plot_area(rules, {50, 20, 600, 260}, {800, 400});
+  EXPECT_FALSE(area.guess);
+  EXPECT_EQ(area.box, cv::Rect2d(50, 20, 600, 260));
+}
+
 TEST(Shapes, NamesInManyWords) {
   EXPECT_EQ(shape_of("open triangle")->outline, Outline::triangle);
   EXPECT_EQ(shape_of("open triangle")->fill, Fill::open);

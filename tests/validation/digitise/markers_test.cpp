@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What markers look like, and where they are: ink drawn here, with lines and bars of the same ink.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "validation/digitise/error_bars.hpp"
+#include "validation/digitise/markers.hpp"
+
+namespace bedscope::digitise {
+namespace {
+
+constexpr int rows = 240, columns = 420;
+
+InkMap empty() {
+  return {cv::Mat::zeros(rows, columns, CV_32F), cv::Mat::zeros(rows, columns, CV_8U)};
+}
+
+/// Lays ink over what is there.
+void add(InkMap& map, const cv::Mat& ink) { map.coverage = cv::max(map.coverage, ink); }
+
+cv::Mat marker_at(const Shape& shape, double size, double stroke, cv::Point2d at) {
+  return draw_shape(shape, {size, size}, stroke, {columns, rows},
+                    {at.x - columns / 2.0, at.y - rows / 2.0});
+}
+
+/// A straight stroke, drawn in eighths of a pixel.
+cv::Mat stroke_from(cv::Point2d a, cv::Point2d b, double width) {
+  constexpr int fine = 8;
+  cv::Mat canvas = cv::Mat::zeros(fine * rows, fine * columns, CV_8U), ink;
+  const cv::Point2d along = (b - a) / cv::norm(b - a),
+                    side = cv::Point2d(-along.y, along.x) * (width / 2);
+  std::vector<cv::Point> corners;
+  for (const auto p : {a + side, b + side, b - side, a - side})
+    corners.emplace_back(cvRound(fine * p.x - 0.5), cvRound(fine * p.y - 0.5));
+  cv::fillConvexPoly(canvas, corners, cv::Scalar(255));
+  cv::resize(canvas, canvas, {columns, rows}, 0, 0, cv::INTER_AREA);
+  canvas.convertTo(ink, CV_32F, 1 / 255.0);
+  return ink;
+}
+
+/// An upright bar from `length` above to `length` below, with caps.
+void add_bar(InkMap& map, cv::Point2d at, double length, double width, double cap) {
+  add(map, stroke_from({at.x, at.y - length}, {at.x, at.y + length}, width));
+  for (const double way : {-1.0, 1.0})
+    add(map,
+        stroke_from({at.x - cap, at.y + way * length}, {at.x + cap, at.y + way * length}, width));
+}
+
+/// Not all at the same fraction of a pixel, and not in line.
+std::vector<cv::Point2d> places(int n) {
+  std::vector<cv::Point2d> at;
+  for (int i = 0; i < n; ++i) at.emplace_back(30.2 + 43.3 * i, 120.4 + 45 * std::sin(0.8 * i));
+  return at;
+}
+
+void expect_found(const InkMap& map, const std::vector<cv::Point2d>& at, Outline outline, Fill fill,
+                  double size) {
+  const auto marker = learn(map, {});
+  ASSERT_TRUE(marker);
+  EXPECT_EQ(name_of(marker->shape), name_of({outline, fill}));
+  EXPECT_NEAR(marker->box.width, size, 1.5);
+  EXPECT_NEAR(marker->box.height, size, 1.5);
+  const auto found = find_markers(map, {*marker})[0];
+  ASSERT_EQ(found.size(), at.size());
+  for (const auto& place : at)
+    EXPECT_TRUE(std::any_of(found.begin(), found.end(), [&](const Marker& one) {
+      return cv::norm(one.at - place) < 0.4;
+    })) << place;
+}
+
+TEST(Learn, OpenMarkersThatHideAThickLineOfTheirInk) {
+  auto map = empty();
+  const auto at = places(9);
+  for (std::size_t i = 1; i < at.size(); ++i) add(map, stroke_from(at[i - 1], at[i], 7));
+  for (const auto place : at) add_bar(map, place, 22, 2, 5);
+  for (const auto place : at) {
+    map.coverage.setTo(0, marker_at({Outline::circle, Fill::filled}, 15, 1, place) > 0.5F);
+    add(map, marker_at({Outline::circle, Fill::open}, 15, 2.5, place));
+  }
+  expect_found(map, at, Outline::circle, Fill::open, 15);
+}
+
+TEST(Learn, OpenMarkersThroughWhichBarsGo) {
+  auto map = empty();
+  const auto at = places(6);
+  for (const auto place : at) {
+    add(map, marker_at({Outline::square, Fill::open}, 16, 2.5, place));
+    add_bar(map, place, 20, 3, 0);
+  }
+  expect_found(map, at, Outline::square, Fill::open, 16);
+}
+
+TEST(Learn, CrossesWithBarsAreNoTriangles) {
+  auto map = empty();
+  const auto at = places(8);
+  for (const auto place : at) {
+    add(map, marker_at({Outline::x, Fill::any}, 15, 3, place));
+    add_bar(map, place, 30, 2.5, 6);
+  }
+  expect_found(map, at, Outline::x, Fill::any, 15);
+}
+
+TEST(Learn, BlurredOutlinesThatStandAlone) {
+  auto map = empty();
+  const auto at = places(8);
+  for (const auto place : at)
+    add(map, marker_at({Outline::triangle_right, Fill::open}, 19, 1.2, place));
+  cv::GaussianBlur(map.coverage, map.coverage, {}, 1.0);
+  const auto marker = learn(map, {});
+  ASSERT_TRUE(marker);
+  EXPECT_EQ(name_of(marker->shape), "open triangle_right");
+  EXPECT_EQ(find_markers(map, {*marker})[0].size(), at.size());
+}
+
+TEST(Learn, DashesOfASteepLineAreNoMarkers) {
+  auto map = empty();
+  const cv::Point2d along = cv::Point2d(1, 1.8) / std::hypot(1, 1.8);
+  for (double t = 0; t < 200; t += 17) {  // dash, dot
+    const cv::Point2d dash = cv::Point2d(60, 20) + t * along, dot = dash + 12 * along;
+    add(map, stroke_from(dash, dash + 9 * along, 1.6));
+    add(map, stroke_from(dot, dot + 1.6 * along, 1.6));
+  }
+  EXPECT_FALSE(markers_on_line(map));
+}
+
+TEST(Template, TrimmedLosesTheStubsOfABar) {
+  const Shape shape{Outline::triangle_down, Fill::filled};
+  const auto bare = make_template(draw_shape(shape, {19, 19}, 1, {25, 25}), shape);
+  cv::Mat ink = draw_shape(shape, {19, 19}, 1, {25, 25});
+  ink.colRange(11, 14).setTo(1);
+  const auto clean = trimmed(make_template(ink, {Outline::diamond, Fill::filled}),
+                             {{Outline::diamond, Fill::filled}, shape});
+  EXPECT_EQ(clean.shape.outline, Outline::triangle_down);
+  EXPECT_NEAR(clean.box.height, bare.box.height, 0.5);
+  EXPECT_NEAR(clean.reference.y, bare.reference.y, 0.3);
+  // A cross is none of these shapes: it stays as it is.
+  const auto plus = make_template(draw_shape({Outline::plus, Fill::any}, {19, 19}, 7, {25, 25}),
+                                  {Outline::plus, Fill::any});
+  EXPECT_EQ(trimmed(plus, {shape}).box.height, plus.box.height);
+}
+
+TEST(Template, APatchOfALineIsNotDistinct) {
+  auto map = empty();
+  add(map, stroke_from({20, 60}, {400, 60}, 8));
+  const Shape disc{Outline::circle, Fill::filled};
+  add(map, marker_at(disc, 16, 1, {200, 60}));
+  const auto patch = make_template(draw_shape(disc, {8, 8}, 1, {10, 10}), disc),
+             marker = make_template(draw_shape(disc, {16, 16}, 1, {20, 20}), disc);
+  EXPECT_EQ(distinct(patch, map, fit(patch, map, {100, 60})), 0);
+  EXPECT_GT(distinct(marker, map, fit(marker, map, {200, 60})), 0.2);
+}
+
+TEST(ErrorBars, AShortOneIsReadByTheThicknessOfTheOthers) {
+  auto map = empty();
+  const auto at = places(7);
+  const Shape square{Outline::square, Fill::filled};
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    add(map, marker_at(square, 11, 1, at[i]));
+    add_bar(map, at[i], i % 2 == 0 ? 25 : 10.5, 2, 4);
+  }
+  const auto marker = make_template(draw_shape(square, {11, 11}, 1, {15, 15}), square);
+  const auto bars = find_error_bars(map, marker, at, true);
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    const double length = i % 2 == 0 ? 25 : 10.5;
+    EXPECT_NEAR(bars[i].upper, at[i].y - length, 0.5) << i;
+    EXPECT_NEAR(bars[i].lower, at[i].y + length, 0.5) << i;
+  }
+}
+
+TEST(ErrorBars, WhatResemblesAMarkerLittleAndLiesOnABarIsNone) {
+  auto map = empty();
+  const auto at = places(6);
+  const Shape disc{Outline::circle, Fill::filled};
+  std::vector<Marker> markers;
+  const auto store = [&](cv::Point2d place, double score) {
+    Marker one;
+    one.at = one.fit.origin = place;
+    one.fit.score = score;
+    markers.push_back(one);
+  };
+  for (const auto place : at) {
+    add(map, marker_at(disc, 12, 1, place));
+    add_bar(map, place, 30, 2, 6);
+    store(place, 0.97);
+  }
+  store(at[2] + cv::Point2d(0, 29), 0.65);   // where a cap meets its bar
+  store(at[3] + cv::Point2d(20, 29), 0.65);  // beside: another curve may hide half of it
+  drop_on_bars(map, make_template(draw_shape(disc, {12, 12}, 1, {16, 16}), disc), markers, false);
+  ASSERT_EQ(markers.size(), at.size() + 1);
+  EXPECT_EQ(markers.back().at, at[3] + cv::Point2d(20, 29));
+}
+
+}  // namespace
+}  // namespace bedscope::digitise
