@@ -276,8 +276,9 @@ void read_series(const fs::path& path, const std::optional<std::string>& run_nam
 void read_axial_temperature(const fs::path& path, const std::optional<std::string>& run_name,
                             RunResult& run) {
   RunRows table(path, run_name);
-  const std::size_t z = table.needed("z [m]"), value = table.needed("temperature [K]");
-  const auto ci95 = table.column("temperature_ci95 [K]");
+  const std::size_t z = table.needed("z [m]");
+  table.needed("temperature [K]");
+  const auto temperature = table.pair("temperature", "K");
   std::set<std::string> layered;
   for (const SpeciesResult& species : run.species)
     if (!species.axial.coordinate.empty()) layered.insert(species.type);
@@ -295,7 +296,7 @@ void read_axial_temperature(const fs::path& path, const std::optional<std::strin
     }
     const auto k = static_cast<std::size_t>(layer - layers.begin());
     species.axial_temperature.resize(layers.size());
-    species.axial_temperature[k] = {table.number(value), table.number(ci95)};
+    species.axial_temperature[k] = table.estimate(temperature);
   }
 }
 
