@@ -11,11 +11,11 @@
 
 namespace bedscope::validation {
 
-/// A number and its 95 % interval from all uncertainties, and from the reference's alone: what no
-/// longer simulation would narrow.
+/// A number and its 95 % interval from all uncertainties; and the half-width of what no longer
+/// simulation would narrow, from the uncertainties of reference and interpolation.
 struct MetricValue {
   double value = 0, lo = 0, hi = 0;
-  double reference_half_width = 0;
+  double fixed_half_width = 0;
   std::string unit = "-";
 };
 
@@ -65,8 +65,11 @@ double wasserstein(std::span<const double> x1, std::span<const double> density1,
                    std::span<const double> x2, std::span<const double> density2);
 MetricValue evaluate_area(const Sampled& result, const Curve& reference);
 
-/// A statistic of a curve under its errors: as for the metrics.
+/// A statistic of a curve under its errors: as for the metrics. From a distance, which is never
+/// below 0 and which noise raises, the mean square is taken off that the draws add to it: once for
+/// what the curve's own noise added, once for that of the draws.
 MetricValue with_interval(const Sampled& curve,
-                          const std::function<double(std::span<const double>)>& statistic);
+                          const std::function<double(std::span<const double>)>& statistic,
+                          bool is_distance = false);
 
 }  // namespace bedscope::validation
