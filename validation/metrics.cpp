@@ -277,6 +277,8 @@ Interval interval_of(const Metric& metric, const Comparison& comparison, double 
   Interval interval{value, value};
   const auto x = abscissae(comparison);
   for (const auto errors : all_errors) {
+    // Of a mean and a mean square the common errors are the largest.
+    if (errors == Errors::neighbours && !metric.of_differences) continue;
     const auto memory = memory_of(x, errors);
     const auto off = taken_off(metric, comparison, noise, errors, of_average);
     std::vector<std::vector<double>> values(off.size());
@@ -305,8 +307,8 @@ std::span<const Metric> metrics() {
       {"e over u", "error over its validation uncertainty (ASME V&V 20)", true, false},
       {"model bias", "mean factor between result and reference, less 1", true, false, 1, true},
       {"model scatter", "scatter of that factor beyond what the uncertainties explain", true, false,
-       3, true},
-      {"rank correlation", "Spearman's rank correlation", false, false, 4},
+       3, true, true},
+      {"rank correlation", "Spearman's rank correlation", false, false, 4, false, true},
   }};
   return all;
 }

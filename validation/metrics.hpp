@@ -27,7 +27,8 @@ struct Metric {
   bool small_is_good = true;  ///< false: the limit is a lower one (correlation)
   bool per_mean = true;       ///< in units of m; needs m != 0
   std::size_t least_points = 1;
-  bool of_logarithms = false;  ///< only of points at which result and reference are above 0
+  bool of_logarithms = false;   ///< only of points at which result and reference are above 0
+  bool of_differences = false;  ///< between points of a curve: errors common to all cancel
 };
 
 /// In the order of the manual:
@@ -49,7 +50,8 @@ const Metric& find_metric(const std::string& name);
 
 /// Value and interval of a metric: 2,000 draws of all errors, once with errors that are independent
 /// from point to point and once with errors common to all points (what is true lies between, and
-/// nobody knows where), the wider ends taken. The draws' own scatter is subtracted from the rmse,
+/// nobody knows where), of differences between points once more with errors that neighbours share;
+/// the wider ends taken. The draws' own scatter is subtracted from the rmse,
 /// which would count it; elsewhere the interval is the union of the percentile and the reflected
 /// one (Davison and Hinkley, Bootstrap Methods, 1997, section 5.2). Always the same draws.
 /// Of the largest error the interval is made of the points' own. "e over u" is its own test: the
