@@ -86,7 +86,7 @@ constexpr std::string_view own_style = R"(<style>
   .checks tbody th { min-width: 5.5rem; overflow-wrap: break-word; }
   .checks .against { min-width: 6rem; }
   .checks .number, .checks th:first-child { white-space: nowrap; }
-  .checks .metric { overflow-wrap: normal; }
+  .checks .metric, .checks .before { overflow-wrap: normal; }
   section p { margin: .2rem 0; }
   section .note { font-size: .82rem; }
   @media print {
@@ -136,7 +136,8 @@ std::string table_of(const ValidationReport& report) {
         skipped ? "–"
                 : fmt::format("{} to {}", in_digits(v.metric.lo, 3), in_digits(v.metric.hi, 3)),
         v.small_is_good ? "≤" : "≥", in_digits(v.limit, 3));
-    if (!report.earlier_name.empty()) table += "<td>" + history_of(v, keys[k], report) + "</td>";
+    if (!report.earlier_name.empty())
+      table += "<td class=\"before\">" + history_of(v, keys[k], report) + "</td>";
     table += "</tr>\n";
   }
   return table + "</tbody></table></div>\n";
