@@ -439,6 +439,13 @@ double wasserstein(std::span<const double> x1, std::span<const double> density1,
 }
 
 MetricValue evaluate_area(const Sampled& result, const Curve& reference) {
+  if (result.x.unit != reference.x.unit)
+    throw InputError("{}: a density along {}: expected it along {}", reference.name,
+                     reference.x.text(), result.x.text());
+  for (std::size_t i = 0; i < result.at.size(); ++i)  // no bin can be left out of an area
+    if (!std::isfinite(result.value[i]) || !std::isfinite(result.u[i]))
+      throw InputError("area: {} = {:.4g}: expected {} and, where others have one, its interval",
+                       result.x.name, result.at[i], result.y.name);
   std::vector<double> x, density;
   for (const auto& point : reference.points) {
     x.push_back(point.x);

@@ -62,7 +62,8 @@ MetricValue evaluate(const Metric& metric, const Comparison& comparison);
 /// 1-Wasserstein distance of two distributions given by densities on abscissae of their own, in the
 /// unit of the abscissa: the area between their cumulative curves ("area metric", Ferson,
 /// Oberkampf and Ginzburg 2008). Densities are normalised, and constant within their bins.
-/// Throws InputError for abscissae that do not ascend, or a density without positive area.
+/// Throws InputError for abscissae that do not ascend, or a density without positive area; that of
+/// a run also for another unit of the abscissa, and bins without a value or an interval.
 double wasserstein(std::span<const double> x1, std::span<const double> density1,
                    std::span<const double> x2, std::span<const double> density2);
 MetricValue evaluate_area(const Sampled& result, const Curve& reference);

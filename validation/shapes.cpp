@@ -120,6 +120,8 @@ MetricValue evaluate(const Shape& shape, const Sampled& profile) {
   if (kept.at.size() < least_points)
     throw InputError("{}: expected a profile of {} points at least, found {}", shape.name,
                      least_points, kept.at.size());
+  if (std::all_of(kept.value.begin(), kept.value.end(), [](double v) { return v == 0; }))
+    throw InputError("{}: {} is 0 everywhere: it has no shape", shape.name, kept.y.name);
   std::vector<double> share;
   for (const double at : kept.at)
     share.push_back((at - kept.at.front()) / (kept.at.back() - kept.at.front()));

@@ -272,6 +272,32 @@ class Validate(unittest.TestCase):
             self.assertIn(text, done.stderr)
             self.assertFalse(os.path.exists(self.folder + "/out"))
 
+    def test_what_has_no_area_no_shape_or_no_time_is_one_line(self):
+        pdf = "bin_centre [-],probability_density [-],probability_density_ci95 [-]\n0.25,{},0.1\n0.75,0.5,{}\n"
+        area = 'quantity = "temperature pdf"\nagainst = "{}.csv"\nmetric = "area"\nlimit = 1'
+        history = 'quantity = "inventory history"\nagainst = 1\nmetric = "max error"\nlimit = 1'
+        zero = 'quantity = "lateral velocity"\nat = { height = 1 }\nshape = "down-flow at walls"'
+        for name, unit in (("share", "-"), ("kelvin", "K")):
+            with open(f"{self.folder}/{name}.csv", "w") as file:
+                file.write(f"T [{unit}],f [-]\n0.25,1\n0.75,1\n")
+        still = "height [m],x [m],velocity_z [m/s]\n" + "".join(f"1,{k},0\n" for k in range(8))
+        for check, table, text in (
+                (area.format("kelvin"), pdf.format(1.5, 0.1), "expected it along scaled temperature [-]"),
+                (area.format("share"), pdf.format("nan", 0.1), "scaled temperature = 0.25: expected temperature pdf"),
+                (area.format("share"), pdf.format(1.5, "nan"), "scaled temperature = 0.75: expected temperature pdf"),
+                (area.format("share"), pdf.format(1.5, -0.1), "a half-width of at least 0"),
+                (history, "time [s],particles,solids_mass [kg]\n0,1,1\n2,1,1\n1,1,1\n", "do not ascend"),
+                (zero, still, "is 0 everywhere")):
+            name = {"b": "temperature_pdf", "t": "inventory", "h": "lateral_profile"}[table[0]]
+            self.tables(**{name: table})
+            done = self.validate(self.study([check]))
+            self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr + done.stdout)
+            self.assertIn(text, done.stderr)
+            self.assertFalse(os.path.exists(self.folder + "/out"))
+            os.remove(f"{self.folder}/a/tables/{name}.csv")
+        self.tables(temperature_pdf=pdf.format(1.5, 0.1))
+        self.assertEqual(self.validate(self.study([area.format("share")])).returncode, 0)
+
     def test_a_profile_at_another_height_is_none(self):
         """Tables do not say how wide their bands are: a check takes the height that it names, or none."""
         self.tables(lateral_profile="height [m],x [m],holdup [-]\n0.3,0.01,0.1\n0.3,0.02,0.1\n")
