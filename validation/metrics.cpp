@@ -459,6 +459,12 @@ MetricValue evaluate_area(const Sampled& result, const Curve& reference) {
       std::pair(memory_of(result.at, Errors::independent), memory_of(x, Errors::independent)),
       std::pair(memory_of(result.at, Errors::neighbours), memory_of(x, Errors::neighbours)),
       std::pair(memory_of_a_shift(result.value), memory_of_a_shift(density))};
+  // Errors so wide that they leave no density say nothing of where it lies.
+  const double farthest =
+      std::max(result.at.back(), x.back()) - std::min(result.at.front(), x.front());
+  const auto is_density = [](const std::vector<double>& values) {
+    return std::any_of(values.begin(), values.end(), [](double v) { return v > 0; });
+  };
   const auto interval = [&](bool of_average) {
     Interval ends{found.value, found.value};
     for (const auto& [in_result, in_reference] : memories) {
@@ -469,7 +475,9 @@ MetricValue evaluate_area(const Sampled& result, const Curve& reference) {
         auto drawn_reference = density;
         if (of_average) add_errors(drawn, result.u, in_result, draw);
         add_errors(drawn_reference, u_reference, in_reference, draw);
-        values.push_back(wasserstein(result.at, drawn, x, drawn_reference));
+        values.push_back(is_density(drawn) && is_density(drawn_reference)
+                             ? wasserstein(result.at, drawn, x, drawn_reference)
+                             : farthest);
       }
       widen(ends, found.value, percentiles(values), true);
     }

@@ -253,6 +253,15 @@ TEST(Area, OfADistributionThatMovesHasTheErrorOfItsPlace) {
   EXPECT_EQ(of_result.fixed_half_width, 0);
 }
 
+TEST(Area, UnderErrorsThatLeaveNoDensityIsStillAnInterval) {
+  // All on one half of the range at least, 2.5 from its middle on the mean.
+  auto vague = peak(5.5, 0);
+  for (double& u : vague.u) u = 100;
+  const auto found = evaluate_area(vague, curve_of(peak(5, 0)));
+  EXPECT_GT(found.hi, 2.5);
+  EXPECT_EQ(found.lo, 0);
+}
+
 TEST(Area, OfAReferenceWithAnUncertainAbscissaHasItsError) {
   const auto found = evaluate_area(peak(5.5, 0), curve_of(peak(5, 0), .1));
   EXPECT_NEAR(found.hi - found.value, 1.96 * .1, .1 * 1.96 * .1);
