@@ -276,8 +276,9 @@ void read_series(const fs::path& path, const std::optional<std::string>& run_nam
 void read_axial_temperature(const fs::path& path, const std::optional<std::string>& run_name,
                             RunResult& run) {
   RunRows table(path, run_name);
-  const std::size_t z = table.needed("z [m]"), value = table.needed("temperature [K]");
-  const auto ci95 = table.column("temperature_ci95 [K]");
+  const std::size_t z = table.needed("z [m]");
+  table.needed("temperature [K]");
+  const auto temperature = table.pair("temperature", "K");
   std::set<std::string> layered;
   for (const SpeciesResult& species : run.species)
     if (!species.axial.coordinate.empty()) layered.insert(species.type);
@@ -295,7 +296,7 @@ void read_axial_temperature(const fs::path& path, const std::optional<std::strin
     }
     const auto k = static_cast<std::size_t>(layer - layers.begin());
     species.axial_temperature.resize(layers.size());
-    species.axial_temperature[k] = {table.number(value), table.number(ci95)};
+    species.axial_temperature[k] = table.estimate(temperature);
   }
 }
 
@@ -303,9 +304,9 @@ void read_axial_temperature(const fs::path& path, const std::optional<std::strin
 void read_temperature_pdf(const fs::path& path, const std::optional<std::string>& run_name,
                           RunResult& run) {
   RunRows table(path, run_name);
-  const std::size_t centre = table.needed("bin_centre [-]"),
-                    density = table.needed("probability_density [-]");
-  const auto ci95 = table.column("probability_density_ci95 [-]");
+  const std::size_t centre = table.needed("bin_centre [-]");
+  table.needed("probability_density [-]");
+  const auto density = table.pair("probability_density", "-");
   struct Bin {
     double centre;
     std::size_t line;
@@ -316,8 +317,9 @@ void read_temperature_pdf(const fs::path& path, const std::optional<std::string>
     bins_of.resize(run.species.size());
     bins_of[static_cast<std::size_t>(&species - run.species.data())].push_back(
         {table.finite(centre, "bin centre"), table.line()});
-    species.temperature_pdf.push_back(table.number(density));
-    species.temperature_pdf_ci95.push_back(table.number(ci95));
+    const Estimate bin = table.estimate(density);
+    species.temperature_pdf.push_back(bin.value);
+    species.temperature_pdf_ci95.push_back(bin.ci95);
   }
   for (const std::vector<Bin>& bins : bins_of)
     for (std::size_t i = 0; i < bins.size(); ++i) {

@@ -41,6 +41,17 @@ class RunRows : public CsvReader {
   }
   int count(std::optional<std::size_t> at, int least) const { return at ? count(*at, least) : 0; }
 
+  /// As CsvReader's; but a column "name [unit]" that is there in another unit, or without one, is
+  /// an error and not a missing column.
+  std::optional<std::size_t> column(std::string_view title) const {
+    if (const auto found = CsvReader::column(title)) return found;
+    const auto bare = [](std::string_view text) { return text.substr(0, text.find(" [")); };
+    if (bare(title) != title)
+      for (const auto& other : header())
+        if (bare(other) == bare(title)) fail(fmt::format("a column '{}'", title), other);
+    return std::nullopt;
+  }
+
   /// Columns "name [unit]" and "name_ci95 [unit]", which may be missing.
   using Pair = std::pair<std::optional<std::size_t>, std::optional<std::size_t>>;
   Pair pair(std::string_view name, std::string_view unit) const {
@@ -48,7 +59,11 @@ class RunRows : public CsvReader {
             column(fmt::format("{}_ci95 [{}]", name, unit))};
   }
   Estimate estimate(const Pair& columns) const {
-    return {number(columns.first), number(columns.second)};
+    const double ci95 = number(columns.second);
+    if (ci95 < 0 || std::isinf(ci95))
+      fail(fmt::format("a half-width of at least 0 for '{}', or nan", header()[*columns.second]),
+           fmt::format("{}", ci95));
+    return {number(columns.first), ci95};
   }
 
  private:

@@ -113,7 +113,7 @@ void show(const validation::NamedTheory& theory) {
   line("or also", fmt::format("{}", fmt::join(theory.optional, ", ")));
 }
 
-/// As a file of curves: what is printed can be read again.
+/// As a file of curves: what is printed can be read again. What was assumed goes to stderr.
 void show_points(const Curve& curve) {
   constexpr double coverage_factor = 1.96;
   const bool bars = std::any_of(curve.points.begin(), curve.points.end(),
@@ -131,7 +131,7 @@ void show_points(const Curve& curve) {
     else
       fmt::print("{:.3g}\n", point.up());
   }
-  for (const auto& assumption : curve.assumptions) fmt::print("# {}\n", assumption);
+  for (const auto& assumption : curve.assumptions) fmt::print(stderr, "assumed: {}\n", assumption);
 }
 
 void run(const Options& options) {

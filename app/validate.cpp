@@ -70,7 +70,7 @@ validation::Curves open_curves(const Study& study, const Options& options) {
   auto folders = study.curves;
   folders.insert(folders.end(), options.curves.begin(), options.curves.end());
   folders.push_back(curves_folder());
-  return validation::Curves::open(folders);
+  return validation::Curves::open(folders, std::filesystem::path(options.study).parent_path());
 }
 
 /// What can be wrong with a check whatever the runs hold is found before hours of reading dumps.
@@ -115,9 +115,10 @@ void write_all(const Study& study, const std::vector<RunResult>& results,
 /// Each assumption is told once, however many checks rest on it.
 void tell(const std::vector<RunResult>& results, const std::vector<Verdict>& verdicts) {
   std::set<std::string> assumptions;
-  for (const auto& verdict : verdicts) {
-    fmt::print("{:<14} {}: {}\n", name_of(verdict.outcome), report::check_key(verdict),
-               verdict.reason);
+  const auto keys = report::check_keys(verdicts);
+  for (std::size_t k = 0; k < verdicts.size(); ++k) {
+    const auto& verdict = verdicts[k];
+    fmt::print("{:<14} {}: {}\n", name_of(verdict.outcome), keys[k], verdict.reason);
     assumptions.insert(verdict.assumptions.begin(), verdict.assumptions.end());
   }
   for (const auto& assumption : assumptions) fmt::print("assumed: {}\n", assumption);

@@ -12,22 +12,49 @@
 
 namespace bedscope {
 
+/// Bytes of the UTF-8 character that begins at `at`; 0 where none does.
+inline std::size_t utf8_length(std::string_view text, std::size_t at) {
+  const auto first = static_cast<unsigned char>(text[at]);
+  if (first < 0x80) return 1;
+  const std::size_t length = first < 0xc2   ? 0
+                             : first < 0xe0 ? 2
+                             : first < 0xf0 ? 3
+                             : first < 0xf5 ? 4
+                                            : 0;
+  if (length == 0 || at + length > text.size()) return 0;
+  unsigned code = first & (0xffU >> (length + 1));
+  for (std::size_t k = 1; k < length; ++k) {
+    const auto next = static_cast<unsigned char>(text[at + k]);
+    if ((next & 0xc0U) != 0x80) return 0;
+    code = code << 6 | (next & 0x3fU);
+  }
+  const unsigned least = length == 2 ? 0x80 : length == 3 ? 0x800 : 0x10000;
+  return code < least || code > 0x10ffff || (code >= 0xd800 && code < 0xe000) ? 0 : length;
+}
+
 /// A text for the user as one line, whatever was quoted in it from a damaged file or an odd name:
-/// control characters as \n or \x1b, the middle of very long ones left out.
+/// control characters and bytes that are no UTF-8 as \n or \x1b, the middle of very long ones left
+/// out.
 inline std::string one_line(std::string_view text) {
   constexpr std::size_t half = 900;
-  const bool whole = text.size() <= 2 * half;
+  bool whole = text.size() <= 2 * half;
   std::string line;
   for (std::size_t i = 0; i < text.size(); ++i) {
-    if (!whole && i == half) {
+    if (!whole && i >= half) {
+      whole = true;
       line += " ... ";
       i = text.size() - half;
     }
     const char c = text[i];
-    if (static_cast<unsigned char>(c) >= ' ' && c != '\x7f')
+    const auto length = utf8_length(text, i);
+    if (length > 1) {
+      line += text.substr(i, length);
+      i += length - 1;
+    } else if (length == 1 && c >= ' ' && c != '\x7f') {
       line += c;
-    else
-      line += c == '\n' ? "\\n" : fmt::format("\\x{:02x}", c);
+    } else {
+      line += c == '\n' ? "\\n" : fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
+    }
   }
   return line;
 }

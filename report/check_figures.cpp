@@ -172,13 +172,34 @@ void draw_errors(Canvas& canvas, const Verdict& verdict, const Layout& layout) {
   canvas.draw(layers);
 }
 
-std::string place_words(const Verdict& verdict) {
-  std::string text = verdict.run + ": " + verdict.check.place.quantity;
+/// ", height 0.8 m, 2", or nothing.
+std::string place_of(const Verdict& verdict) {
+  std::string text;
   for (const auto& [key, value] : verdict.check.place.at)
     text += fmt::format(", {} {}{}", key, value, unit_of_place(key));
   if (verdict.check.place.species != "all")
     text += ", " + species_title(verdict.check.place.species);
   return text;
+}
+
+std::string place_words(const Verdict& verdict) {
+  return verdict.run + ": " + verdict.check.place.quantity + place_of(verdict);
+}
+
+/// What the legend of a scatter plot calls its comparisons: by run, place and reference; by run
+/// alone where that would be a long list.
+std::vector<std::string> names_in(const validation::Family& family) {
+  constexpr std::size_t long_list = 8;
+  std::vector<std::string> names;
+  for (const auto* verdict : family.verdicts) {
+    auto name = verdict->run;
+    if (family.verdicts.size() <= long_list) {
+      name += place_of(*verdict);
+      name += " against " + reference_name(*verdict);
+    }
+    names.push_back(name);
+  }
+  return names;
 }
 
 }  // namespace
@@ -199,8 +220,7 @@ Figure check_figure(const Verdict& judged, const std::string& name) {
   if (!verdict.reference.points.empty())
     entries.push_back({"", data_style, verdict.reference.name});
   if (!verdict.comparison.outside.empty() || !verdict.comparison.without_error.empty())
-    entries.push_back(
-        {"", outside_style, "not compared: outside the result, or it has no interval"});
+    entries.push_back({"", outside_style, "not compared (outside, or no interval)"});
   entries.push_back({fmt::format("lc rgb '{}' lw 1.3", result_colour), "", verdict.run});
   const double legend = Canvas::legend_height(entries, width - left) + 1;
   Canvas canvas(width, layout.main.bottom + main_height + 2 + legend);
@@ -226,12 +246,20 @@ Figure family_figure(const validation::Family& family, const std::string& name) 
       range.add(point.result);
       range.add(point.reference);
     }
-  if (range.lo > 0) range.lo = 0;
+  if (range.lo > 0 && range.lo < 0.4 * range.hi) range.lo = 0;
+  const auto names = names_in(family);
+  std::vector<std::string> legend_of;  // each name once
+  for (const auto& each : names)
+    if (std::find(legend_of.begin(), legend_of.end(), each) == legend_of.end())
+      legend_of.push_back(each);
+  const auto style_of = [&](const std::string& each) {
+    return curve_style(static_cast<std::size_t>(
+        std::find(legend_of.begin(), legend_of.end(), each) - legend_of.begin()));
+  };
   std::vector<LegendEntry> entries;
-  for (std::size_t k = 0; k < family.verdicts.size(); ++k) {
-    const auto style = curve_style(k);
-    entries.push_back({"", fmt::format("{} lc rgb '{}'", style.marker, style.colour),
-                       place_words(*family.verdicts[k])});
+  for (const auto& each : legend_of) {
+    const auto style = style_of(each);
+    entries.push_back({"", fmt::format("{} lc rgb '{}'", style.marker, style.colour), each});
   }
   const double legend = Canvas::legend_height(entries, width - left) + 1;
   Canvas canvas(width, bottom + side + 2 + legend);
@@ -244,10 +272,13 @@ Figure family_figure(const validation::Family& family, const std::string& name) 
   canvas.open(panel);
   std::vector<std::string> layers;
   const auto ray = [&](double slope, const char* words) {
-    const double x = std::min(panel.x.hi, panel.y.hi / slope);
-    layers.push_back(Canvas::layer(canvas.block(fmt::format("result = {:.3g} reference", slope),
-                                                data_row({0, 0}) + data_row({x, slope * x})),
-                                   fmt::format("using 1:2 with lines {}", words)));
+    const double from = std::max(0., std::max(panel.x.lo, panel.y.lo / slope));
+    const double to = std::min(panel.x.hi, panel.y.hi / slope);
+    if (from >= to) return;  // it passes by
+    layers.push_back(
+        Canvas::layer(canvas.block(fmt::format("result = {:.3g} reference", slope),
+                                   data_row({from, slope * from}) + data_row({to, slope * to})),
+                      fmt::format("using 1:2 with lines {}", words)));
   };
   ray(1, "lc rgb '#000000' lw 1");
   ray(family.bias, "lc rgb '#D55E00' lw 1.3");
@@ -258,7 +289,7 @@ Figure family_figure(const validation::Family& family, const std::string& name) 
     std::string rows;
     for (const auto& point : family.verdicts[k]->comparison.points)
       rows += data_row({point.reference, point.result});
-    const auto style = curve_style(k);
+    const auto style = style_of(names[k]);
     layers.push_back(Canvas::layer(
         canvas.block("reference, result", rows),
         fmt::format("using 1:2 with points {} lc rgb '{}'", style.marker, style.colour)));

@@ -20,6 +20,7 @@
 namespace bedscope::report {
 
 namespace fs = std::filesystem;
+using validation::in_digits;
 using validation::Outcome;
 using validation::Verdict;
 
@@ -50,10 +51,7 @@ struct Shown {
 std::vector<Shown> panels_of(std::span<const Verdict> verdicts) {
   std::vector<Shown> panels;
   const auto same = [](const Verdict& a, const Verdict& b) {
-    return a.run == b.run && a.check.place.quantity == b.check.place.quantity &&
-           a.check.place.at == b.check.place.at && a.check.place.species == b.check.place.species &&
-           a.reference.name == b.reference.name &&
-           a.comparison.points.empty() == b.comparison.points.empty();
+    return same_comparison(a, b) && a.comparison.points.empty() == b.comparison.points.empty();
   };
   for (std::size_t k = 0; k < verdicts.size(); ++k) {
     const auto panel = std::find_if(panels.begin(), panels.end(), [&](const Shown& shown) {
@@ -69,8 +67,8 @@ std::vector<Shown> panels_of(std::span<const Verdict> verdicts) {
   return panels;
 }
 
-std::string history_of(const Verdict& verdict, const ValidationReport& report) {
-  const auto key = check_key(verdict);
+std::string history_of(const Verdict& verdict, const std::string& key,
+                       const ValidationReport& report) {
   const auto before = std::find_if(report.earlier.begin(), report.earlier.end(),
                                    [&](const EarlierVerdict& e) { return e.key == key; });
   if (before == report.earlier.end()) return "new";
@@ -85,8 +83,10 @@ constexpr std::string_view own_style = R"(<style>
   .checks td, .checks th { text-align: left; white-space: normal; overflow-wrap: anywhere; min-width: 0; }
   .checks thead th { overflow-wrap: normal; }
   .checks .run { min-width: 4.5rem; }
+  .checks tbody th { min-width: 5.5rem; overflow-wrap: break-word; }
+  .checks .against { min-width: 6rem; }
   .checks .number, .checks th:first-child { white-space: nowrap; }
-  .checks .metric { overflow-wrap: normal; }
+  .checks .metric, .checks .before { overflow-wrap: normal; }
   section p { margin: .2rem 0; }
   section .note { font-size: .82rem; }
   @media print {
@@ -102,6 +102,17 @@ constexpr std::string_view own_style = R"(<style>
 </style>
 )";
 
+/// The name of a curve, which may be broken between its parts and not within them.
+std::string breakable(std::string_view name) {
+  std::string text;
+  for (const char c : name) {
+    if (c == '?' || c == '_') text += "<wbr>";
+    text += c;
+    if (c == '/') text += "<wbr>";
+  }
+  return text;
+}
+
 std::string table_of(const ValidationReport& report) {
   std::string table =
       "<div class=\"wide\"><table class=\"checks\">\n<thead><tr><th scope=\"col\">Verdict</th><th>"
@@ -110,20 +121,23 @@ std::string table_of(const ValidationReport& report) {
       "Limit</th>";
   if (!report.earlier_name.empty()) table += "<th>Before</th>";
   table += "</tr></thead>\n<tbody>\n";
+  const auto keys = check_keys(report.verdicts);
   for (std::size_t k = 0; k < report.verdicts.size(); ++k) {
     const auto& v = report.verdicts[k];
     const bool skipped = v.outcome == Outcome::skipped;
     table += fmt::format(
         "<tr><td>{}</td><th scope=\"row\"><a href=\"#check{}\">{}</a></th><td "
-        "class=\"run\">{}</td><td>{}</td>"
+        "class=\"run\">{}</td><td class=\"against\">{}</td>"
         "<td class=\"metric\">{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td>"
         "<td class=\"number\">{} {}</td>",
         badge(v.outcome), k + 1, escaped(where(v)), escaped(v.run),
-        escaped(v.reference.name.empty() ? "–" : v.reference.name), escaped(v.check.metric),
-        skipped ? "–" : number(v.metric.value, 3),
-        skipped ? "–" : fmt::format("{} to {}", number(v.metric.lo, 3), number(v.metric.hi, 3)),
-        v.small_is_good ? "≤" : "≥", number(v.limit, 3));
-    if (!report.earlier_name.empty()) table += "<td>" + history_of(v, report) + "</td>";
+        breakable(escaped(reference_name(v).empty() ? "–" : reference_name(v))),
+        escaped(v.check.metric), skipped ? "–" : in_digits(v.metric.value, 3),
+        skipped ? "–"
+                : fmt::format("{} to {}", in_digits(v.metric.lo, 3), in_digits(v.metric.hi, 3)),
+        v.small_is_good ? "≤" : "≥", in_digits(v.limit, 3));
+    if (!report.earlier_name.empty())
+      table += "<td class=\"before\">" + history_of(v, keys[k], report) + "</td>";
     table += "</tr>\n";
   }
   return table + "</tbody></table></div>\n";
@@ -167,8 +181,8 @@ std::string provenance_of(const validation::Curve& curve) {
 
 /// A value and the half-width of its 95 % interval.
 std::string with_interval(double value, double u, const std::string& unit) {
-  const auto text =
-      u > 0 ? fmt::format("{} ± {}", number(value, 4), number(1.96 * u, 2)) : number(value, 4);
+  const auto text = u > 0 ? fmt::format("{} ± {}", in_digits(value, 4), in_digits(1.96 * u, 2))
+                          : in_digits(value, 4);
   return unit == "-" ? text : text + " " + unit;
 }
 
@@ -181,7 +195,9 @@ std::string picture_of(const Figure& figure, const fs::path& folder) {
 
 /// One comparison, drawn once, with all the checks made on it.
 std::string section_of(const ValidationReport& report, const Shown& panel, const fs::path& folder) {
-  std::string text = "<section>\n<h2>" + escaped(panel.figure.title) + "</h2>\n";
+  const auto reference = reference_name(report.verdicts[panel.verdicts.front()]);
+  std::string text = "<section>\n<h2>" + escaped(panel.figure.title) +
+                     (reference.empty() ? "" : " against " + escaped(reference)) + "</h2>\n";
   std::set<std::string> assumptions;
   for (const std::size_t k : panel.verdicts) {
     const auto& verdict = report.verdicts[k];

@@ -14,13 +14,14 @@ namespace bedscope::report {
 
 /// A verdict of an earlier report, for its history.
 struct EarlierVerdict {
-  std::string key;  ///< check_key()
+  std::string key;  ///< of check_keys()
   std::string outcome;
   double value = 0;
 };
 
-/// What names a check from one report to the next: quantity, place, run, reference, metric.
-std::string check_key(const validation::Verdict& verdict);
+/// What names each check from one report to the next: run, quantity, place, metric, reference; of
+/// several of one name the later ones are numbered, in the order of the study.
+std::vector<std::string> check_keys(std::span<const validation::Verdict> verdicts);
 
 struct ValidationReport {
   std::string title;

@@ -26,7 +26,8 @@ std::string title_of(const Verdict& verdict) {
   for (const auto& [key, value] : verdict.check.place.at) text += fmt::format(" {}={}", key, value);
   if (verdict.check.place.species != "all") text += " of " + verdict.check.place.species;
   text += ": " + verdict.check.metric;
-  if (!verdict.reference.name.empty()) text += " against " + verdict.reference.name;
+  const auto reference = reference_name(verdict);
+  if (!reference.empty()) text += " against " + reference;
   return text;
 }
 
@@ -50,12 +51,14 @@ std::string story_of(const Verdict& verdict) {
   return text;
 }
 
-/// A cell of a Markdown table: no line break, no bar.
-std::string cell(std::string text) {
-  for (auto& c : text)
-    if (c == '\n') c = ' ';
-  for (std::size_t at = 0; (at = text.find('|', at)) != text.npos; at += 2) text.insert(at, "\\");
-  return text;
+/// A cell of a Markdown table: no line break, no bar, and nothing that is taken for a tag.
+std::string cell(std::string_view text) {
+  std::string escaped;
+  for (const char c : text) {
+    if (c == '|' || c == '<') escaped += '\\';
+    escaped += c == '\n' ? ' ' : c;
+  }
+  return escaped;
 }
 
 Json place_json(const Verdict& verdict) {
@@ -89,7 +92,16 @@ Json check_json(const Verdict& verdict) {
 
 }  // namespace
 
-std::string check_key(const Verdict& verdict) { return verdict.run + ": " + title_of(verdict); }
+std::vector<std::string> check_keys(std::span<const Verdict> verdicts) {
+  std::map<std::string, int> seen;
+  std::vector<std::string> keys;
+  for (const auto& verdict : verdicts) {
+    auto key = fmt::format("{}: {}", verdict.run, title_of(verdict));
+    const int times = ++seen[key];
+    keys.push_back(times > 1 ? fmt::format("{} ({})", key, times) : key);
+  }
+  return keys;
+}
 
 std::string junit_text(std::span<const Verdict> verdicts, const std::string& title) {
   const auto counts =
@@ -100,11 +112,12 @@ std::string junit_text(std::span<const Verdict> verdicts, const std::string& tit
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"{0}\" {1}>\n<testsuite "
       "name=\"{0}\" {1}>\n",
       in_xml(title), counts);
-  std::map<std::string, int> seen;  // two checks of one name would be taken for one
-  for (const auto& verdict : verdicts) {
-    const int times = ++seen[check_key(verdict)];
-    text += fmt::format("<testcase classname=\"{}\" name=\"{}{}\">", in_xml(verdict.run),
-                        in_xml(title_of(verdict)), times > 1 ? fmt::format(" ({})", times) : "");
+  const auto keys = check_keys(verdicts);
+  for (std::size_t k = 0; k < verdicts.size(); ++k) {
+    const auto& verdict = verdicts[k];
+    const auto name = keys[k].substr(verdict.run.size() + 2);  // the run is the class
+    text +=
+        fmt::format("<testcase classname=\"{}\" name=\"{}\">", in_xml(verdict.run), in_xml(name));
     const auto reason = in_xml(one_line(verdict.reason)), story = in_xml(story_of(verdict));
     if (verdict.outcome == Outcome::does_not_hold)
       text +=
@@ -124,7 +137,7 @@ std::string markdown_text(std::span<const analysis::RunResult> runs,
   std::string text = fmt::format(
       "## {}\n\n{} checks: {} hold, {} do not hold, {} undecided, {} skipped\n\n"
       "| verdict | run | check | why |\n|---|---|---|---|\n",
-      title, verdicts.size(), count(verdicts, Outcome::holds),
+      cell(title), verdicts.size(), count(verdicts, Outcome::holds),
       count(verdicts, Outcome::does_not_hold), count(verdicts, Outcome::undecided),
       count(verdicts, Outcome::skipped));
   for (const auto outcome :
@@ -145,9 +158,10 @@ std::string markdown_text(std::span<const analysis::RunResult> runs,
 std::string summary_with_checks(std::span<const analysis::RunResult> runs,
                                 std::span<const Verdict> verdicts) {
   auto summary = Json::parse(analysis::summary_text(runs));
-  for (const auto& verdict : verdicts) {
-    summary["checks"].push_back(check_json(verdict));
-    summary["checks"].back()["key"] = check_key(verdict);
+  const auto keys = check_keys(verdicts);
+  for (std::size_t k = 0; k < verdicts.size(); ++k) {
+    summary["checks"].push_back(check_json(verdicts[k]));
+    summary["checks"].back()["key"] = keys[k];
   }
   return summary.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -155,7 +169,7 @@ std::string summary_with_checks(std::span<const analysis::RunResult> runs,
 std::vector<EarlierVerdict> read_earlier(const std::filesystem::path& path) {
   std::error_code unknown;
   if (!std::filesystem::is_regular_file(path, unknown))  // a pipe would be waited for
-    throw FileError("{}: no such file", path.string());
+    throw FileError("{}: no such file, expected a summary.json", path.string());
   std::ifstream file(path);
   if (!file) throw FileError("{}: cannot be read", path.string());
   std::vector<EarlierVerdict> earlier;

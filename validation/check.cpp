@@ -52,6 +52,19 @@ void require_reachable(TomlTable& table, const Check& check) {
     table.fail(*table.find("limit"), "check.limit: expected -1 to 1, found {}", *check.limit);
 }
 
+/// A key that only one kind of check reads would be passed over in silence.
+void require_use(TomlTable& table, const char* key, bool is_used, const char* belongs) {
+  const auto* node = table.find(key);
+  if (node != nullptr && !is_used) table.fail(*node, "check.{}: belongs to {}", key, belongs);
+}
+
+void require_uses(TomlTable& table, const Check& check) {
+  require_use(table, "uncertainty", check.number.has_value(),
+              "a number in against; that of a curve stands in its CSV or its sidecar");
+  require_use(table, "with", check.against.starts_with("theory:"), "a theory in against");
+  require_use(table, "accuracy", check.metric == "e over u", "the metric \"e over u\"");
+}
+
 void read_measure(TomlTable& table, Check& check) {
   std::set<std::string> names{"area"};
   for (const auto& metric : metrics()) names.emplace(metric.name);
@@ -91,6 +104,7 @@ Check read_check(TomlTable& table) {
   check.with = numbers_of(table, "with");
   read_reference(table, check);
   read_measure(table, check);
+  require_uses(table, check);
   table.finish();
   return check;
 }

@@ -26,7 +26,7 @@ struct Columns {
   std::optional<std::size_t> u_x, u_y, y_lo, y_hi;
   std::vector<std::size_t> parameters;
 
-  bool has_bars() const { return y_lo && y_hi && !u_y; }
+  bool has_bars() const { return y_lo && y_hi; }
 };
 
 std::optional<std::size_t> column_of(const analysis::CsvReader& rows, const std::string& name) {
@@ -57,8 +57,18 @@ std::optional<std::size_t> uncertainty_column(const std::string& path,
     for (const char* suffix : {"_u", "_ci95"})
       if (column_of(rows, name + suffix)) rule.column = name + suffix;
   if (rule.column.empty()) return std::nullopt;
-  rule.is_interval = rule.column.ends_with("_ci95");
-  return needed(path, rows, rule.column);
+  const auto column = needed(path, rows, rule.column);
+  rule.is_interval = parse_title(rows.header()[column]).name.ends_with("_ci95");
+  return column;
+}
+
+/// A column of uncertainties is in the unit of what it belongs to, where it names one.
+void need_unit_of(const std::string& path, const analysis::CsvReader& rows, std::size_t axis,
+                  std::optional<std::size_t> column) {
+  if (!column) return;
+  const auto &title = rows.header()[axis], &found = rows.header()[*column];
+  if (const auto unit = parse_title(found).unit; !unit.empty() && unit != parse_title(title).unit)
+    throw FormatError("{}: line 1: column \"{}\": expected the unit of \"{}\"", path, found, title);
 }
 
 Columns find_columns(const std::string& path, const analysis::CsvReader& rows, Sidecar& sidecar) {
@@ -92,6 +102,9 @@ Columns find_columns(const std::string& path, const analysis::CsvReader& rows, S
   if (columns.y_lo.has_value() != columns.y_hi.has_value())
     throw FormatError("{}: line 1: expected both ends of error bars, found \"{}\" alone", path,
                       header[columns.y_lo ? *columns.y_lo : *columns.y_hi]);
+  need_unit_of(path, rows, columns.x, columns.u_x);
+  for (const auto column : {columns.u_y, columns.y_lo, columns.y_hi})
+    need_unit_of(path, rows, columns.y, column);
   for (const auto k : plain)
     if (k != columns.x && k != columns.y && columns.u_x != k && columns.u_y != k)
       columns.parameters.push_back(k);
@@ -114,26 +127,32 @@ double uncertainty_in(const analysis::CsvReader& rows, std::size_t column) {
   return value;
 }
 
-/// The arms of an error bar, which is taken as a 95 % interval.
+/// The arms of an error bar, which is taken as a 95 % interval; an uncertainty beside it (of
+/// reading the plot) comes on top.
 void read_bar(const analysis::CsvReader& rows, const Columns& columns, CurvePoint& point) {
   const double low = finite(rows, *columns.y_lo), high = finite(rows, *columns.y_hi);
   if (!(low <= point.y && point.y <= high))
     rows.fail(fmt::format("{} <= {} <= {}", rows.header()[*columns.y_lo], rows.header()[columns.y],
                           rows.header()[*columns.y_hi]),
               fmt::format("{}, {}, {}", low, point.y, high));
-  point.u_y = (high - point.y) / coverage_factor;
-  point.u_y_down = (point.y - low) / coverage_factor;
+  point.u_y_down = std::hypot(point.u_y, (point.y - low) / coverage_factor);
+  point.u_y = std::hypot(point.u_y, (high - point.y) / coverage_factor);
 }
 
-/// Uncertainties of a row, where columns tell them.
-void read_uncertainties(const analysis::CsvReader& rows, const Columns& columns,
-                        const Sidecar& sidecar, CurvePoint& point) {
-  const auto factor = [](const UncertaintyRule& rule) {
-    return rule.is_interval ? coverage_factor : 1;
-  };
-  if (columns.u_x) point.u_x = uncertainty_in(rows, *columns.u_x) / factor(sidecar.u_x);
-  if (columns.u_y) point.u_y = uncertainty_in(rows, *columns.u_y) / factor(sidecar.u_y);
+/// The standard uncertainty of a value as a column or the sidecar states it; 0 where neither does.
+double stated_uncertainty(const analysis::CsvReader& rows, std::optional<std::size_t> column,
+                          const UncertaintyRule& rule, double value) {
+  if (column) return uncertainty_in(rows, *column) / (rule.is_interval ? coverage_factor : 1);
+  return rule.absolute.value_or(rule.relative.value_or(0) * std::abs(value));
+}
+
+CurvePoint read_point(const analysis::CsvReader& rows, const Columns& columns,
+                      const Sidecar& sidecar) {
+  CurvePoint point{finite(rows, columns.x), finite(rows, columns.y)};
+  point.u_x = stated_uncertainty(rows, columns.u_x, sidecar.u_x, point.x);
+  point.u_y = stated_uncertainty(rows, columns.u_y, sidecar.u_y, point.y);
   if (columns.has_bars()) read_bar(rows, columns, point);
+  return point;
 }
 
 /// Values of a text or number column in the order of numbers where all are numbers.
@@ -172,8 +191,7 @@ CurveSet read_set(const std::string& name, const std::string& path) {
     for (std::size_t k = 0; k < values.size(); ++k)
       values[k].emplace(rows.text(columns.parameters[k]));
     if (sidecar.table) continue;
-    CurvePoint point{finite(rows, columns.x), finite(rows, columns.y)};
-    read_uncertainties(rows, columns, sidecar, point);
+    read_point(rows, columns, sidecar);
   }
   if (set.points == 0) throw FormatError("{}: no rows: expected at least one point", path);
   for (std::size_t k = 0; k < values.size(); ++k)
@@ -207,11 +225,13 @@ bool matches(std::string_view text, const std::string& wanted) {
   return a && b && std::abs(*a - *b) <= 1e-6 * std::max(std::abs(*a), std::abs(*b));
 }
 
-void set_uncertainties(const Sidecar& sidecar, bool has_bars, Curve& curve) {
+/// Where nobody states an uncertainty: that of a digitised plot, or none of an original; said.
+void assume_uncertainties(const Sidecar& sidecar, bool has_bars, Curve& curve) {
   if (curve.points.empty()) return;
   const bool digitised = sidecar.about.method != "original";
-  const auto fill = [&](const UncertaintyRule& rule, const Title& title, double CurvePoint::*value,
-                        double CurvePoint::*u, double share) {
+  const auto assume = [&](const UncertaintyRule& rule, const Title& title,
+                          double CurvePoint::*value, double CurvePoint::*u, double share) {
+    if (rule.stated()) return;
     const auto [low, high] = std::minmax_element(
         curve.points.begin(), curve.points.end(),
         [&](const CurvePoint& a, const CurvePoint& b) { return a.*value < b.*value; });
@@ -219,12 +239,7 @@ void set_uncertainties(const Sidecar& sidecar, bool has_bars, Curve& curve) {
     const bool has_range = *high.*value > *low.*value;
     const double range = has_range ? *high.*value - *low.*value : std::abs(*high.*value);
     const double assumed = digitised ? share * range : 0;
-    for (auto& point : curve.points) {
-      if (rule.absolute) point.*u = *rule.absolute;
-      if (rule.relative) point.*u = *rule.relative * std::abs(point.*value);
-      if (!rule.stated()) point.*u = assumed;
-    }
-    if (rule.stated()) return;
+    for (auto& point : curve.points) point.*u = assumed;
     curve.assumptions.push_back(one_line(
         digitised
             ? fmt::format("{}: uncertainty of {} not stated; {:.1g}{} ({} % of its {}) "
@@ -234,8 +249,8 @@ void set_uncertainties(const Sidecar& sidecar, bool has_bars, Curve& curve) {
                           has_range ? "range" : "value")
             : fmt::format("{}: uncertainty of {} not stated; taken as 0", curve.name, title.name)));
   };
-  fill(sidecar.u_x, curve.x, &CurvePoint::x, &CurvePoint::u_x, assumed_u_x);
-  if (!has_bars) fill(sidecar.u_y, curve.y, &CurvePoint::y, &CurvePoint::u_y, assumed_u_y);
+  assume(sidecar.u_x, curve.x, &CurvePoint::x, &CurvePoint::u_x, assumed_u_x);
+  if (!has_bars) assume(sidecar.u_y, curve.y, &CurvePoint::y, &CurvePoint::u_y, assumed_u_y);
 }
 
 std::string choices(const CurveSet& set) {
@@ -292,8 +307,7 @@ Curve read_curve(const CurveSet& set, const std::string& selection,
     if (!mine) continue;
     for (std::size_t k = 0; k < wanted.size(); ++k)
       left[k].emplace(rows.text(columns.parameters[k]));
-    CurvePoint point{finite(rows, columns.x), finite(rows, columns.y)};
-    read_uncertainties(rows, columns, sidecar, point);
+    const auto point = read_point(rows, columns, sidecar);
     if (!curve.points.empty() && !(point.x > curve.points.back().x) && disorder.empty())
       disorder = fmt::format("{}: line {}: expected times that ascend, found {} after {}", set.path,
                              rows.line(), point.x, curve.points.back().x);
@@ -313,14 +327,15 @@ Curve read_curve(const CurveSet& set, const std::string& selection,
   if (columns.has_bars())
     curve.assumptions.push_back(one_line(
         fmt::format("{}: error bars of {} taken as 95 % intervals", selection, curve.y.name)));
-  set_uncertainties(sidecar, columns.has_bars(), curve);
+  assume_uncertainties(sidecar, columns.has_bars(), curve);
   return curve;
 }
 
 }  // namespace
 
-Curves Curves::open(std::span<const std::string> folders) {
+Curves Curves::open(std::span<const std::string> folders, const fs::path& base) {
   Curves curves;
+  curves.base_ = base;
   std::set<std::string> seen;
   for (const auto& folder : folders) {
     if (!fs::is_directory(folder)) throw FileError("{}: expected a folder of curves", folder);
@@ -348,8 +363,9 @@ Curve Curves::curve(const std::string& selection, const std::map<std::string, do
   if (found != sets_.end()) {
     set = *found;
   } else if (name.ends_with(".csv")) {
-    if (!fs::exists(name)) throw InputError("{}: no such file, expected a curve", name);
-    set = read_set(name, name);
+    const auto path = base_ / name;  // an absolute name stays as it is
+    if (!fs::exists(path)) throw InputError("{}: no such file, expected a curve", path.string());
+    set = read_set(name, path.string());
   } else {
     std::set<std::string> names;
     for (const auto& each : sets_) names.insert(each.name);

@@ -3,6 +3,7 @@
 // (<name>.toml) that says where its numbers come from. docs/validation.md tells what it may hold.
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <span>
 #include <string>
@@ -41,8 +42,9 @@ class Curves {
  public:
   /// Reads and checks every file of these folders (and of their subfolders); of two sets of one
   /// name the first folder's is taken. Throws FileError, FormatError (a column without unit, a
-  /// value that is no number, with line), InputError (a sidecar with an unknown key).
-  static Curves open(std::span<const std::string> folders);
+  /// value that is no number, with line), InputError (a sidecar with an unknown key). `base`: the
+  /// folder that paths of CSV files are relative to; empty: where the program runs.
+  static Curves open(std::span<const std::string> folders, const std::filesystem::path& base = {});
 
   const std::vector<CurveSet>& sets() const { return sets_; }
 
@@ -54,6 +56,7 @@ class Curves {
 
  private:
   std::vector<CurveSet> sets_;
+  std::filesystem::path base_;
 };
 
 /// Standard uncertainties taken where a digitised plot states none, as shares of the curve's range:

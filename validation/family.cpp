@@ -46,11 +46,8 @@ std::vector<Family> families(std::span<const Verdict> verdicts) {
     }
     // Several metrics of one comparison are one comparison.
     const bool seen =
-        std::any_of(family->verdicts.begin(), family->verdicts.end(), [&](const Verdict* other) {
-          return other->run == verdict.run && other->reference.name == verdict.reference.name &&
-                 other->check.place.at == verdict.check.place.at &&
-                 other->check.place.species == verdict.check.place.species;
-        });
+        std::any_of(family->verdicts.begin(), family->verdicts.end(),
+                    [&](const Verdict* other) { return same_comparison(*other, verdict); });
     if (!seen) family->verdicts.push_back(&verdict);
   }
   for (auto& family : found) evaluate(family);

@@ -18,8 +18,33 @@ namespace {
 constexpr int draws = 2000;
 constexpr std::uint64_t seed = 20260101;  // any; a report must not change from run to run
 
-/// What is drawn: deviations of results and references at the points, u_* times these.
-enum class Errors { none, independent, common };
+/// How the errors of neighbouring points may go together: not at all; over a part of the curve, as
+/// where neighbours see the same clusters or a shift moves both flanks of a peak; all alike. In a
+/// difference between walls and core the first and the last cancel, and the second does not.
+enum class Errors { independent, neighbours, common };
+constexpr std::array all_errors{Errors::independent, Errors::neighbours, Errors::common};
+
+/// Share of the curve over which the errors of neighbours fall to 1/e: that at which the difference
+/// of an outer fifth and the middle two fifths errs most (0.96 u; 0.76 u at 0.05, 0.66 u at 1).
+constexpr double memory_length = 0.2;
+
+/// How much of its left neighbour's error each point has, for abscissae that ascend.
+std::vector<double> memory_of(std::span<const double> x, Errors errors) {
+  std::vector<double> memory(x.size(), errors == Errors::common ? 1 : 0);
+  if (errors != Errors::neighbours) return memory;
+  for (std::size_t i = 1; i < x.size(); ++i) {
+    const double gap = x[i] - x[i - 1];  // 0 where a place was measured twice
+    memory[i] = gap > 0 ? std::exp(-gap / (memory_length * (x.back() - x.front()))) : 1;
+  }
+  return memory;
+}
+
+/// Abscissae of the compared points.
+std::vector<double> abscissae(const Comparison& comparison) {
+  std::vector<double> x;
+  for (const auto& point : comparison.points) x.push_back(point.x);
+  return x;
+}
 
 struct Perturbed {
   std::vector<double> result, reference;
@@ -28,27 +53,43 @@ struct Perturbed {
 class Draw {
  public:
   double normal() { return distribution_(engine_); }
+  /// Standard normal, with this much of the one before.
+  double after(double before, double memory) {
+    if (memory == 1) return before;
+    return memory * before + std::sqrt(1 - memory * memory) * normal();
+  }
 
  private:
   std::mt19937_64 engine_{seed};
   std::normal_distribution<double> distribution_;
 };
 
-Perturbed perturb(const Comparison& comparison, Errors errors, bool of_result, Draw& draw) {
+Perturbed perturb(const Comparison& comparison, std::span<const double> memory, bool of_average,
+                  Draw& draw) {
   Perturbed drawn;
-  const double common_result = draw.normal(), common_reference = draw.normal();
-  for (const auto& point : comparison.points) {
-    const bool together = errors == Errors::common;
-    const double result = together ? common_result : draw.normal();
-    const double reference = together ? common_reference : draw.normal();
+  double result = draw.normal(), reference = draw.normal();
+  for (std::size_t i = 0; i < comparison.points.size(); ++i) {
+    const auto& point = comparison.points[i];
+    result = draw.after(result, memory[i]);
+    reference = draw.after(reference, memory[i]);
     const double between = draw.normal();
-    drawn.result.push_back(
-        point.result + (of_result ? result * point.u_result + between * point.u_interpolation : 0));
+    drawn.result.push_back(point.result + (of_average ? result * point.u_result : 0) +
+                           between * point.u_interpolation);
     const bool towards = (reference > 0) == (point.error() >= 0);
     drawn.reference.push_back(point.reference +
                               reference * (towards ? point.u_reference : point.away()));
   }
   return drawn;
+}
+
+/// Drawn errors of standard uncertainties u, added to the values of one curve.
+void add_errors(std::vector<double>& values, std::span<const double> u,
+                std::span<const double> memory, Draw& draw) {
+  double error = draw.normal();
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    error = draw.after(error, memory[i]);
+    values[i] += error * u[i];
+  }
 }
 
 double mean(std::span<const double> values) {
@@ -63,14 +104,15 @@ double mean_square(const Comparison& comparison, F&& f) {
   return sum / static_cast<double>(comparison.points.size());
 }
 
-/// Mean over the points that have a logarithm of the squares of f, over the value that it is of.
-double relative_noise(const Comparison& comparison, bool of_result, bool of_reference) {
+/// Mean square, over the points that have a logarithm, of the reference's relative uncertainty and
+/// of the result's, from its time average and from its interpolation.
+double relative_noise(const Comparison& comparison, bool of_average, bool of_interpolation) {
   double sum = 0, count = 0;
   for (const auto& point : comparison.points) {
     if (!(point.result > 0 && point.reference > 0)) continue;
-    if (of_result)
-      sum += std::pow(std::hypot(point.u_result, point.u_interpolation) / point.result, 2);
-    if (of_reference) sum += std::pow(point.u_reference_mean() / point.reference, 2);
+    const double u =
+        std::hypot(of_average ? point.u_result : 0, of_interpolation ? point.u_interpolation : 0);
+    sum += std::pow(u / point.result, 2) + std::pow(point.u_reference_mean() / point.reference, 2);
     count += 1;
   }
   return sum / std::max(1., count);
@@ -143,7 +185,7 @@ double statistic(const Metric& metric, const Comparison& comparison, const Pertu
     const double scatter2 = std::max(0., logarithms.variance - added);
     if (metric.name == "model scatter") return std::sqrt(scatter2);
     return std::abs(
-        std::exp(logarithms.mean + (scatter2 - relative_noise(comparison, false, true)) / 2) - 1);
+        std::exp(logarithms.mean + (scatter2 - relative_noise(comparison, false, false)) / 2) - 1);
   }
   return rank_correlation(drawn.result, drawn.reference);
 }
@@ -183,7 +225,7 @@ double normal_quantile(double share) {
 /// them; and the largest of their lower ends, 2.5 % for all n together (Bonferroni), for noise
 /// chooses among n. Both hold whatever the correlation between points. An error of the mean that
 /// scales may go with the point's own: they are added.
-Interval interval_of_largest(const Comparison& comparison, bool per_mean, bool of_result) {
+Interval interval_of_largest(const Comparison& comparison, bool per_mean, bool of_average) {
   const auto n = static_cast<double>(comparison.points.size());
   const double outer = normal_quantile(.025), inner = normal_quantile(.025 / n);
   double m = 0, u_m = 0;
@@ -197,7 +239,7 @@ Interval interval_of_largest(const Comparison& comparison, bool per_mean, bool o
     const double e = std::abs(point.error());
     const double of_mean = per_mean ? e * u_m / std::abs(m) : 0;
     const auto u = [&](double of_reference) {
-      return std::hypot(of_result ? std::hypot(point.u_result, point.u_interpolation) : 0,
+      return std::hypot(of_average ? point.u_result : 0, point.u_interpolation,
                         of_reference + of_mean);
     };
     interval.lo = std::max(interval.lo, (e - inner * u(point.u_reference)) / scale);
@@ -208,11 +250,10 @@ Interval interval_of_largest(const Comparison& comparison, bool per_mean, bool o
 
 /// What is taken off the mean square of the drawn errors, by each of the ways that may be right.
 std::vector<double> taken_off(const Metric& metric, const Comparison& comparison, double noise,
-                              Errors errors, bool of_result) {
+                              Errors errors, bool of_average) {
   if (metric.name == "relative rmse") {
     const double drawn = mean_square(comparison, [&](const ComparedPoint& p) {
-      return of_result ? std::hypot(p.u_result, p.u_interpolation, p.u_reference_mean())
-                       : p.u_reference_mean();
+      return std::hypot(of_average ? p.u_result : 0, p.u_interpolation, p.u_reference_mean());
     });
     const double of_reference = mean_square(comparison, [](const ComparedPoint& p) {
       return std::hypot(p.u_reference_mean(), p.u_interpolation);
@@ -221,26 +262,34 @@ std::vector<double> taken_off(const Metric& metric, const Comparison& comparison
     return {noise + drawn, noise + drawn + of_reference};
   }
   if (!metric.of_logarithms) return {0};
-  if (errors == Errors::independent) return {noise + relative_noise(comparison, of_result, true)};
-  return {0, noise};  // errors common to all points are no scatter
+  if (errors == Errors::common) return {0, noise};  // which are no scatter
+  return {noise + relative_noise(comparison, of_average, true)};
 }
 
+/// `of_average`: with the errors of the time average, or with those alone that no longer simulation
+/// would narrow.
 Interval interval_of(const Metric& metric, const Comparison& comparison, double value, double noise,
-                     bool of_result) {
+                     bool of_average) {
   if (metric.name == "e over u") return {value, value};  // has the uncertainties in it already
   if (metric.name.ends_with("max error"))
-    return interval_of_largest(comparison, metric.per_mean, of_result);
+    return interval_of_largest(comparison, metric.per_mean, of_average);
   const bool reflects = metric.name != "relative rmse" && metric.name != "model scatter";
   Interval interval{value, value};
-  for (const auto errors : {Errors::independent, Errors::common})
-    for (const double off : taken_off(metric, comparison, noise, errors, of_result)) {
-      Draw draw;
-      std::vector<double> values;
-      for (int k = 0; k < draws; ++k)
-        values.push_back(
-            statistic(metric, comparison, perturb(comparison, errors, of_result, draw), off));
-      widen(interval, value, percentiles(values), reflects);
+  const auto x = abscissae(comparison);
+  for (const auto errors : all_errors) {
+    // Of a mean and a mean square the common errors are the largest.
+    if (errors == Errors::neighbours && !metric.of_differences) continue;
+    const auto memory = memory_of(x, errors);
+    const auto off = taken_off(metric, comparison, noise, errors, of_average);
+    std::vector<std::vector<double>> values(off.size());
+    Draw draw;
+    for (int k = 0; k < draws; ++k) {
+      const auto drawn = perturb(comparison, memory, of_average, draw);
+      for (std::size_t i = 0; i < off.size(); ++i)
+        values[i].push_back(statistic(metric, comparison, drawn, off[i]));
     }
+    for (auto& of_one : values) widen(interval, value, percentiles(of_one), reflects);
+  }
   const bool is_correlation = metric.name == "rank correlation";
   interval.lo = std::max(is_correlation ? -1. : 0., interval.lo);
   if (is_correlation) interval.hi = std::min(1., interval.hi);
@@ -258,8 +307,8 @@ std::span<const Metric> metrics() {
       {"e over u", "error over its validation uncertainty (ASME V&V 20)", true, false},
       {"model bias", "mean factor between result and reference, less 1", true, false, 1, true},
       {"model scatter", "scatter of that factor beyond what the uncertainties explain", true, false,
-       3, true},
-      {"rank correlation", "Spearman's rank correlation", false, false, 4},
+       3, true, true},
+      {"rank correlation", "Spearman's rank correlation", false, false, 4, false, true},
   }};
   return all;
 }
@@ -306,7 +355,7 @@ MetricValue evaluate(const Metric& metric, const Comparison& comparison) {
   const auto fixed = interval_of(metric, comparison, found.value, noise, false);
   found.lo = all.lo;
   found.hi = all.hi;
-  found.reference_half_width = std::max(fixed.hi - found.value, found.value - fixed.lo);
+  found.fixed_half_width = std::max(fixed.hi - found.value, found.value - fixed.lo);
   if (metric.name == "max error") found.unit = comparison.y.unit;
   return found;
 }
@@ -343,6 +392,33 @@ struct Cumulative {
 
 }  // namespace
 
+namespace {
+
+/// The errors of a distribution that moves as a whole: alike on each side of its peak, opposite
+/// across it.
+std::vector<double> memory_of_a_shift(std::span<const double> density) {
+  std::vector<double> memory(density.size(), 1);
+  memory[static_cast<std::size_t>(std::max_element(density.begin(), density.end()) -
+                                  density.begin())] = -1;
+  return memory;
+}
+
+/// Standard uncertainties of a curve's ordinates, those of its abscissae through its own slope
+/// among them.
+std::vector<double> ordinate_errors(const Curve& curve) {
+  std::vector<double> u;
+  const auto& points = curve.points;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto &before = points[i == 0 ? 0 : i - 1],
+               &after = points[std::min(i + 1, points.size() - 1)];
+    u.push_back(
+        std::hypot(points[i].u_y, (after.y - before.y) / (after.x - before.x) * points[i].u_x));
+  }
+  return u;
+}
+
+}  // namespace
+
 double wasserstein(std::span<const double> x1, std::span<const double> density1,
                    std::span<const double> x2, std::span<const double> density2) {
   const Cumulative one(x1, density1), two(x2, density2);
@@ -363,6 +439,13 @@ double wasserstein(std::span<const double> x1, std::span<const double> density1,
 }
 
 MetricValue evaluate_area(const Sampled& result, const Curve& reference) {
+  if (result.x.unit != reference.x.unit)
+    throw InputError("{}: a density along {}: expected it along {}", reference.name,
+                     reference.x.text(), result.x.text());
+  for (std::size_t i = 0; i < result.at.size(); ++i)  // no bin can be left out of an area
+    if (!std::isfinite(result.value[i]) || !std::isfinite(result.u[i]))
+      throw InputError("area: {} = {:.4g}: expected {} and, where others have one, its interval",
+                       result.x.name, result.at[i], result.y.name);
   std::vector<double> x, density;
   for (const auto& point : reference.points) {
     x.push_back(point.x);
@@ -370,45 +453,66 @@ MetricValue evaluate_area(const Sampled& result, const Curve& reference) {
   }
   MetricValue found{.unit = result.x.unit};
   found.value = wasserstein(result.at, result.value, x, density);
-  const auto interval = [&](bool of_result) {
-    Draw draw;
-    std::vector<double> values;
-    for (int k = 0; k < draws; ++k) {
-      auto drawn = result.value;
-      auto drawn_reference = density;
-      for (std::size_t i = 0; i < drawn.size(); ++i)
-        drawn[i] += of_result ? draw.normal() * result.u[i] : 0;
-      for (std::size_t i = 0; i < drawn_reference.size(); ++i)
-        drawn_reference[i] += draw.normal() * reference.points[i].u_y;
-      values.push_back(wasserstein(result.at, drawn, x, drawn_reference));
-    }
+  const auto u_reference = ordinate_errors(reference);
+  // Errors common to all bins are no error of a density, which is normalised.
+  const std::array memories{
+      std::pair(memory_of(result.at, Errors::independent), memory_of(x, Errors::independent)),
+      std::pair(memory_of(result.at, Errors::neighbours), memory_of(x, Errors::neighbours)),
+      std::pair(memory_of_a_shift(result.value), memory_of_a_shift(density))};
+  // Errors so wide that they leave no density say nothing of where it lies.
+  const double farthest =
+      std::max(result.at.back(), x.back()) - std::min(result.at.front(), x.front());
+  const auto is_density = [](const std::vector<double>& values) {
+    return std::any_of(values.begin(), values.end(), [](double v) { return v > 0; });
+  };
+  const auto interval = [&](bool of_average) {
     Interval ends{found.value, found.value};
-    widen(ends, found.value, percentiles(values), true);
+    for (const auto& [in_result, in_reference] : memories) {
+      Draw draw;
+      std::vector<double> values;
+      for (int k = 0; k < draws; ++k) {
+        auto drawn = result.value;
+        auto drawn_reference = density;
+        if (of_average) add_errors(drawn, result.u, in_result, draw);
+        add_errors(drawn_reference, u_reference, in_reference, draw);
+        values.push_back(is_density(drawn) && is_density(drawn_reference)
+                             ? wasserstein(result.at, drawn, x, drawn_reference)
+                             : farthest);
+      }
+      widen(ends, found.value, percentiles(values), true);
+    }
     return ends;
   };
   const auto all = interval(true), fixed = interval(false);
   found.lo = std::max(0., all.lo);
   found.hi = all.hi;
-  found.reference_half_width = std::max(fixed.hi - found.value, found.value - fixed.lo);
+  found.fixed_half_width = std::max(fixed.hi - found.value, found.value - fixed.lo);
   return found;
 }
 
 MetricValue with_interval(const Sampled& curve,
-                          const std::function<double(std::span<const double>)>& statistic_of) {
-  MetricValue found;
-  found.value = statistic_of(curve.value);
-  Interval interval{found.value, found.value};
-  for (const bool common : {false, true}) {
+                          const std::function<double(std::span<const double>)>& statistic_of,
+                          bool is_distance) {
+  const double seen = statistic_of(curve.value);
+  MetricValue found{.value = seen};
+  Interval interval{seen, seen};
+  for (const auto errors : all_errors) {
+    const auto memory = memory_of(curve.at, errors);
     Draw draw;
     std::vector<double> values;
     for (int k = 0; k < draws; ++k) {
       auto drawn = curve.value;
-      const double shared = draw.normal();
-      for (std::size_t i = 0; i < drawn.size(); ++i)
-        drawn[i] += (common ? shared : draw.normal()) * curve.u[i];
+      add_errors(drawn, curve.u, memory, draw);
       values.push_back(statistic_of(drawn));
     }
-    widen(interval, found.value, percentiles(values), true);
+    if (is_distance) {
+      double added = -seen * seen;
+      for (const double value : values) added += value * value / draws;
+      for (double& value : values) value = std::sqrt(std::max(0., value * value - 2 * added));
+      if (errors == Errors::independent)
+        interval.lo = found.value = std::sqrt(std::max(0., seen * seen - std::max(0., added)));
+    }
+    widen(interval, found.value, percentiles(values), !is_distance);
   }
   found.lo = interval.lo;
   found.hi = interval.hi;

@@ -11,11 +11,11 @@
 
 namespace bedscope::validation {
 
-/// A number and its 95 % interval from all uncertainties, and from the reference's alone: what no
-/// longer simulation would narrow.
+/// A number and its 95 % interval from all uncertainties; and the half-width of what no longer
+/// simulation would narrow, from the uncertainties of reference and interpolation.
 struct MetricValue {
   double value = 0, lo = 0, hi = 0;
-  double reference_half_width = 0;
+  double fixed_half_width = 0;
   std::string unit = "-";
 };
 
@@ -27,7 +27,8 @@ struct Metric {
   bool small_is_good = true;  ///< false: the limit is a lower one (correlation)
   bool per_mean = true;       ///< in units of m; needs m != 0
   std::size_t least_points = 1;
-  bool of_logarithms = false;  ///< only of points at which result and reference are above 0
+  bool of_logarithms = false;   ///< only of points at which result and reference are above 0
+  bool of_differences = false;  ///< between points of a curve: errors common to all cancel
 };
 
 /// In the order of the manual:
@@ -49,7 +50,8 @@ const Metric& find_metric(const std::string& name);
 
 /// Value and interval of a metric: 2,000 draws of all errors, once with errors that are independent
 /// from point to point and once with errors common to all points (what is true lies between, and
-/// nobody knows where), the wider ends taken. The draws' own scatter is subtracted from the rmse,
+/// nobody knows where), of differences between points once more with errors that neighbours share;
+/// the wider ends taken. The draws' own scatter is subtracted from the rmse,
 /// which would count it; elsewhere the interval is the union of the percentile and the reflected
 /// one (Davison and Hinkley, Bootstrap Methods, 1997, section 5.2). Always the same draws.
 /// Of the largest error the interval is made of the points' own. "e over u" is its own test: the
@@ -60,13 +62,17 @@ MetricValue evaluate(const Metric& metric, const Comparison& comparison);
 /// 1-Wasserstein distance of two distributions given by densities on abscissae of their own, in the
 /// unit of the abscissa: the area between their cumulative curves ("area metric", Ferson,
 /// Oberkampf and Ginzburg 2008). Densities are normalised, and constant within their bins.
-/// Throws InputError for abscissae that do not ascend, or a density without positive area.
+/// Throws InputError for abscissae that do not ascend, or a density without positive area; that of
+/// a run also for another unit of the abscissa, and bins without a value or an interval.
 double wasserstein(std::span<const double> x1, std::span<const double> density1,
                    std::span<const double> x2, std::span<const double> density2);
 MetricValue evaluate_area(const Sampled& result, const Curve& reference);
 
-/// A statistic of a curve under its errors: as for the metrics.
+/// A statistic of a curve under its errors: as for the metrics. From a distance, which is never
+/// below 0 and which noise raises, the mean square is taken off that the draws add to it: once for
+/// what the curve's own noise added, once for that of the draws.
 MetricValue with_interval(const Sampled& curve,
-                          const std::function<double(std::span<const double>)>& statistic);
+                          const std::function<double(std::span<const double>)>& statistic,
+                          bool is_distance = false);
 
 }  // namespace bedscope::validation

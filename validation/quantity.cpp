@@ -121,8 +121,9 @@ Sampled sample(const analysis::RunResult& run, const Place& place) {
   auto sampled = is_series(place.quantity) ? of_series(run, place) : of_table(run, place);
   if (std::none_of(sampled.value.begin(), sampled.value.end(),
                    [](double value) { return std::isfinite(value); }))
-    throw InputError("run \"{}\": it has no {}{}", run.label, place.quantity,
-                     place.species == "all" ? "" : " of species " + place.species);
+    throw InputError("run \"{}\": it has no {}{}{}", run.label, place.quantity,
+                     place.species == "all" ? "" : " of species " + place.species,
+                     sampled.notes.empty() ? "" : ": " + sampled.notes.front());
   if (std::isfinite(run.window.to - run.window.from) && !sampled.x.is_time())
     sampled.duration = run.window.to - run.window.from;
   return sampled;

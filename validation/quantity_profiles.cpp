@@ -30,6 +30,7 @@ Sampled along(const char* axis, const char* unit, const std::vector<double>& at,
 const analysis::SpeciesResult& species_of(const RunResult& run, const Place& place) {
   for (const auto& species : run.species)
     if (species.type == place.species) return species;
+  if (run.types.empty()) throw InputError("run \"{}\": it has no {}", run.label, place.quantity);
   throw InputError("run \"{}\": {}: no species \"{}\", there are {}", run.label, place.quantity,
                    place.species, fmt::join(run.types, ", "));
 }
@@ -61,7 +62,8 @@ std::size_t height_of(const RunResult& run, const Place& place) {
   if (wanted == place.at.end())
     throw InputError("run \"{}\": {}: expected at = {{ height = ... }} [m]", run.label,
                      place.quantity);
-  const double tolerance = std::max(run.band / 2, 1e-6 * std::abs(wanted->second));
+  const double rounding = 1e-6 * std::abs(wanted->second);
+  const double tolerance = std::isfinite(run.band) ? std::max(run.band / 2, rounding) : rounding;
   std::size_t nearest = 0;
   for (std::size_t h = 1; h < run.heights.size(); ++h)
     if (std::abs(run.heights[h] - wanted->second) < std::abs(run.heights[nearest] - wanted->second))

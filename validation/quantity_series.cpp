@@ -83,7 +83,7 @@ Sampled history(const Signal& signal) {
   sampled.at = signal.times;
   sampled.value = signal.values;
   sampled.u.assign(signal.values.size(), 0);
-  if (!ascending(signal.times)) return Sampled{};  // times that are not known
+  if (!ascending(signal.times)) return {.notes = {"its times are not known, or do not ascend"}};
   return sampled;
 }
 

@@ -19,7 +19,7 @@ constexpr std::size_t least_points = 5;
 struct Placed {
   std::span<const double> share, value;
 
-  /// Mean of the values with a <= share <= b; of the nearest point where there is none.
+  /// Mean of the values with a <= share <= b; the value in its middle where no point lies there.
   double mean(double a, double b) const {
     double sum = 0, count = 0;
     for (std::size_t i = 0; i < share.size(); ++i)
@@ -27,7 +27,14 @@ struct Placed {
         sum += value[i];
         count += 1;
       }
-    return sum / count;
+    return count > 0 ? sum / count : at((a + b) / 2);
+  }
+  /// Between the points by a straight line.
+  double at(double where) const {
+    const auto above = std::upper_bound(share.begin() + 1, share.end() - 1, where);
+    const auto k = static_cast<std::size_t>(above - share.begin());
+    const double part = (where - share[k - 1]) / (share[k] - share[k - 1]);
+    return (1 - part) * value[k - 1] + part * value[k];
   }
   double left() const { return mean(0, wall); }
   double right() const { return mean(1 - wall, 1); }
@@ -66,22 +73,17 @@ double rmse(std::span<const double> a, std::span<const double> b) {
   return std::sqrt(sum / static_cast<double>(a.size()));
 }
 
-double less_noise(double value, double noise) {
-  return std::sqrt(std::max(0., value * value - noise * noise));
-}
-
-/// The statistic of a shape; `noise`: root mean square of the standard errors.
-double statistic(std::string_view name, const Placed& profile, double noise) {
+double statistic(std::string_view name, const Placed& profile) {
   const double m = profile.magnitude();
   if (name == "u-shaped") return (std::min(profile.left(), profile.right()) - profile.core()) / m;
   if (name == "core-annulus")
     return (profile.core() - std::max(profile.left(), profile.right())) / m;
   if (name == "down-flow at walls") return std::max(profile.left(), profile.right()) / m;
   if (name == "near walls") return (profile.left() + profile.right()) / 2 / profile.mean(0, 1) - 1;
-  if (name == "decreasing")
-    return less_noise(rmse(profile.value, nearest_falling(profile.value)), noise) / m;
-  const std::vector<double> mirrored(profile.value.rbegin(), profile.value.rend());
-  return less_noise(rmse(profile.value, mirrored) / std::sqrt(2.), noise) / m;
+  if (name == "decreasing") return rmse(profile.value, nearest_falling(profile.value)) / m;
+  std::vector<double> mirrored;
+  for (const double share : profile.share) mirrored.push_back(profile.at(1 - share));
+  return rmse(profile.value, mirrored) / std::sqrt(2.) / m;
 }
 
 }  // namespace
@@ -91,8 +93,8 @@ std::span<const Shape> shapes() {
       {"u-shaped", "walls above the core, over the mean", false, 0},
       {"core-annulus", "core above the walls, over the mean", false, 0},
       {"down-flow at walls", "largest wall value, over the mean", true, 0},
-      {"decreasing", "distance from the nearest falling profile, over the mean", true, .05},
-      {"symmetric", "distance from its mirror image, over the mean", true, .1},
+      {"decreasing", "distance from the nearest falling profile, over the mean", true, .05, true},
+      {"symmetric", "distance from its mirror image, over the mean", true, .1, true},
       {"near walls", "density at the walls over the mean, less 1", false, 0},
   }};
   return all;
@@ -118,15 +120,17 @@ MetricValue evaluate(const Shape& shape, const Sampled& profile) {
   if (kept.at.size() < least_points)
     throw InputError("{}: expected a profile of {} points at least, found {}", shape.name,
                      least_points, kept.at.size());
+  if (std::all_of(kept.value.begin(), kept.value.end(), [](double v) { return v == 0; }))
+    throw InputError("{}: {} is 0 everywhere: it has no shape", shape.name, kept.y.name);
   std::vector<double> share;
-  double noise = 0;
-  for (std::size_t i = 0; i < kept.at.size(); ++i) {
-    share.push_back((kept.at[i] - kept.at.front()) / (kept.at.back() - kept.at.front()));
-    noise += kept.u[i] * kept.u[i] / static_cast<double>(kept.at.size());
-  }
-  return with_interval(kept, [&](std::span<const double> values) {
-    return statistic(shape.name, {share, values}, std::sqrt(noise));
-  });
+  for (const double at : kept.at)
+    share.push_back((at - kept.at.front()) / (kept.at.back() - kept.at.front()));
+  return with_interval(
+      kept,
+      [&](std::span<const double> values) {
+        return statistic(shape.name, {share, values});
+      },
+      shape.is_distance);
 }
 
 }  // namespace bedscope::validation

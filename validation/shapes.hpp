@@ -16,6 +16,7 @@ struct Shape {
   std::string_view meaning;  ///< of the statistic
   bool small_is_good = true;
   double limit = 0;
+  bool is_distance = false;  ///< never below 0
 };
 
 /// Walls are the outer fifths of the abscissa, the core its middle two fifths; m is the mean of the

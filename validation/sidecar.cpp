@@ -2,6 +2,7 @@
 #include "validation/sidecar.hpp"
 
 #include <charconv>
+#include <cmath>
 #include <filesystem>
 
 #include "readers/toml_table.hpp"
@@ -25,7 +26,7 @@ UncertaintyRule uncertainty(readers::TomlTable& table, const char* key) {
   if (text == "not stated") return rule;
   if (text.ends_with('%')) {
     const auto share = to_number(text.substr(0, text.find_last_not_of("% ") + 1));
-    if (!share || *share < 0)
+    if (!share || !(*share >= 0 && std::isfinite(*share)))
       table.fail(*node, "{}: expected a share such as \"3 %\", found \"{}\"", key, text);
     rule.relative = *share / 100;
   } else {
@@ -67,7 +68,12 @@ Sidecar read_sidecar(const std::string& path) {
                  "redistribute: expected \"yes\" or \"no\", found \"{}\"", *pass_on);
     about.redistribute = *pass_on == "yes";
   }
-  about.orientation_known = text("orientation") != "unknown";
+  if (const auto orientation = table.text("orientation")) {
+    if (*orientation != "known" && *orientation != "unknown")
+      table.fail(*table.find("orientation"),
+                 "orientation: expected \"known\" or \"unknown\", found \"{}\"", *orientation);
+    about.orientation_known = *orientation == "known";
+  }
   about.caveats = table.texts("caveats").value_or(std::vector<std::string>{});
   about.checks = table.texts("checks").value_or(std::vector<std::string>{});
   read_conditions(table, about);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "readers/error.hpp"
 #include "validation/reference.hpp"
@@ -18,17 +19,32 @@ constexpr double coverage_factor = 1.96;
 
 /// How a value stands to its limit, in words.
 std::string standing(const Verdict& verdict) {
-  return fmt::format("{} {:.3g} [{:.3g}, {:.3g}] against {} {:.3g}", verdict.check.metric,
-                     verdict.metric.value, verdict.metric.lo, verdict.metric.hi,
-                     verdict.small_is_good ? "at most" : "at least", verdict.limit);
+  return fmt::format("{} {} [{}, {}] against {} {}", verdict.check.metric,
+                     in_digits(verdict.metric.value, 3), in_digits(verdict.metric.lo, 3),
+                     in_digits(verdict.metric.hi, 3),
+                     verdict.small_is_good ? "at most" : "at least", in_digits(verdict.limit, 3));
 }
 
 /// An average over `longer` times the time.
 std::string in_time(double duration, double longer) {
   if (duration > 0)
-    return fmt::format("{:.2g} s more of simulation would settle it ({:.3g} s were averaged)",
-                       duration * (longer - 1), duration);
-  return fmt::format("an average over {:.2g} times the time would settle it", longer);
+    return fmt::format("{} s more of simulation would settle it ({} s were averaged)",
+                       in_digits(duration * (longer - 1), 2), in_digits(duration, 3));
+  return fmt::format("an average over {} times the time would settle it", in_digits(longer, 2));
+}
+
+/// Who sets the uncertainty that a longer simulation leaves: the reference, or cells so coarse that
+/// the result is not known between them.
+std::string_view what_limits(const Comparison& comparison) {
+  double of_reference = 0, of_interpolation = 0;
+  for (const auto& point : comparison.points) {
+    of_reference += point.u_reference_mean() * point.u_reference_mean();
+    of_interpolation += point.u_interpolation * point.u_interpolation;
+  }
+  return of_interpolation > of_reference
+             ? "no longer simulation can settle it, smaller cells might: interpolation between the "
+               "result's points is too uncertain"
+             : "the reference cannot settle it: its own uncertainty is too large";
 }
 
 /// What would settle an undecided check.
@@ -37,11 +53,10 @@ std::string what_would_settle(const Verdict& verdict) {
   const double distance = std::abs(verdict.limit - metric.value);
   // The wider side: the other one may end at 0, which no metric goes below.
   const double half_width = std::max(metric.hi - metric.value, metric.value - metric.lo);
-  const double of_reference = std::min(metric.reference_half_width, half_width);
-  if (of_reference >= distance)
-    return "the reference cannot settle it: its own uncertainty reaches over the limit";
-  const double of_result = std::sqrt(half_width * half_width - of_reference * of_reference);
-  const double longer = of_result * of_result / (distance * distance - of_reference * of_reference);
+  const double fixed = std::min(metric.fixed_half_width, half_width);
+  if (fixed >= distance) return std::string(what_limits(verdict.comparison));
+  const double longer =
+      (half_width * half_width - fixed * fixed) / (distance * distance - fixed * fixed);
   if (longer > 1e4) return "the value is too near to the limit for any simulation to settle it";
   return in_time(verdict.result.duration, longer);
 }
@@ -90,7 +105,7 @@ bool too_uncertain(const Verdict& verdict, std::string& why) {
       "; 1.96 u_val reaches {:.2g} of the mean, above the accuracy of {:.2g} asked for: ",
       coverage_factor * largest / std::abs(mean), verdict.check.accuracy);
   if (!std::isfinite(longer))
-    why += "no simulation can settle it, the reference's own uncertainty is larger";
+    why += what_limits(verdict.comparison);
   else
     why += in_time(verdict.result.duration, longer);
   return true;
@@ -203,6 +218,26 @@ Verdict evaluate_on(const Check& check, const RunResult& run, std::span<const Ru
 }
 
 }  // namespace
+
+std::string in_digits(double value, int digits) {
+  const auto text = fmt::format("{:.{}g}", value, digits);
+  if (text.find("e+") == text.npos || !(std::abs(value) < 1e6)) return text;
+  const double unit = std::pow(10, std::floor(std::log10(std::abs(value))) + 1 - digits);
+  return fmt::format("{:.0f}", std::round(value / unit) * unit);
+}
+
+std::string reference_name(const Verdict& verdict) {
+  return verdict.reference.name.empty() ? verdict.check.against : verdict.reference.name;
+}
+
+bool same_comparison(const Verdict& a, const Verdict& b) {
+  const auto compared = [](const Verdict& v) {
+    const auto& c = v.check;
+    return std::tie(v.run, c.place.quantity, c.place.at, c.place.species, c.against, c.number,
+                    c.number_u, c.with);
+  };
+  return compared(a) == compared(b);
+}
 
 std::string_view name_of(Outcome outcome) {
   switch (outcome) {

@@ -33,6 +33,16 @@ struct Verdict {
   std::vector<std::string> assumptions;  ///< uncertainties and orientations that nobody stated
 };
 
+/// A number for people, rounded to so many digits; with an exponent only from a million on.
+std::string in_digits(double value, int digits);
+
+/// What was or, where it is missing, should have been the reference; empty for shapes.
+std::string reference_name(const Verdict& verdict);
+
+/// Whether two verdicts are of the same values of the same run against the same reference: they
+/// differ by metric or limit at most.
+bool same_comparison(const Verdict& a, const Verdict& b);
+
 /// Holds if the whole 95 % interval of the metric keeps the limit, does not hold if none of it
 /// does, else undecided: the interval is [lo, hi].
 Outcome judge(const MetricValue& metric, double limit, bool small_is_good);

@@ -121,11 +121,25 @@ class Validate(unittest.TestCase):
             file.write('redistribute = "no"\n')
         check = 'quantity = "axial holdup"\nagainst = "closed"\nmetric = "relative rmse"\nlimit = 1'
         done = self.validate(self.study([check], head='curves = ["mine"]\n'), "--json")
-        self.assertEqual(json.loads(done.stdout)["checks"][0]["verdict"], "skipped")
+        (skipped,) = json.loads(done.stdout)["checks"]
+        self.assertEqual(skipped["verdict"], "skipped")
         self.assertEqual(done.returncode, 1)
         with open(self.folder + "/mine/closed.csv", "w") as file:
             file.write("z [m],holdup [-]\n0.5,0.075\n")
-        self.assertEqual(self.validate(self.folder + "/study.toml").returncode, 0)
+        done = self.validate(self.folder + "/study.toml", "--json")
+        self.assertEqual(done.returncode, 0)
+        self.assertEqual(json.loads(done.stdout)["checks"][0]["key"], skipped["key"])  # the same check in its history
+
+    def test_large_numbers_and_tags_are_shown_as_people_read_them(self):
+        self.tables(pressure_drop="time [s],pressure_drop [Pa]\n" + "".join(
+            f"{k / 10},{2450 + 300 * (k % 3 - 1)}\n" for k in range(40)))
+        check = 'quantity = "pressure drop"\nagainst = 1200\nuncertainty = 1\nmetric = "max error"\nlimit = 1251'
+        self.validate(self.study([check], head='title = "bed <a> | b"\n[scene]\naverage = {}\n'))
+        with open(self.folder + "/out/summary.md") as file:
+            summary = file.read()
+        self.assertIn("## bed \\<a> \\| b\n", summary)
+        self.assertIn("max error 1240 [", summary)
+        self.assertNotIn("e+0", summary)
 
     def test_an_earlier_result_is_a_reference_and_a_history(self):
         check = 'quantity = "axial holdup"\nagainst = "baseline:old"\nmetric = "max error"\nlimit = 0.01'
@@ -214,6 +228,9 @@ class Validate(unittest.TestCase):
                              ({"against": "0.1", "at": "{ U = 5.55 }"}, "unknown key at.U"),
                              ({"against": '"run:a"'}, "a run against itself"),
                              ({"accuracy": "-1"}, "accuracy"),
+                             ({"accuracy": "0.1"}, 'belongs to the metric "e over u"'),
+                             ({"uncertainty": "0.1"}, "belongs to a number in against"),
+                             ({"with": "{ area = 1 }"}, "belongs to a theory in against"),
                              ({"uncertainty": "-1"}, "uncertainty")):
             keys = {k: v for k, v in (good | change).items() if v is not None}
             done = self.validate(self.study(["\n".join(f"{k} = {v}" for k, v in keys.items())]))
@@ -254,6 +271,71 @@ class Validate(unittest.TestCase):
             self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
             self.assertIn(text, done.stderr)
             self.assertFalse(os.path.exists(self.folder + "/out"))
+
+    def test_what_has_no_area_no_shape_or_no_time_is_one_line(self):
+        pdf = "bin_centre [-],probability_density [-],probability_density_ci95 [-]\n0.25,{},0.1\n0.75,0.5,{}\n"
+        area = 'quantity = "temperature pdf"\nagainst = "{}.csv"\nmetric = "area"\nlimit = 1'
+        history = 'quantity = "inventory history"\nagainst = 1\nmetric = "max error"\nlimit = 1'
+        zero = 'quantity = "lateral velocity"\nat = { height = 1 }\nshape = "down-flow at walls"'
+        for name, unit in (("share", "-"), ("kelvin", "K")):
+            with open(f"{self.folder}/{name}.csv", "w") as file:
+                file.write(f"T [{unit}],f [-]\n0.25,1\n0.75,1\n")
+        still = "height [m],x [m],velocity_z [m/s]\n" + "".join(f"1,{k},0\n" for k in range(8))
+        for check, table, text in (
+                (area.format("kelvin"), pdf.format(1.5, 0.1), "expected it along scaled temperature [-]"),
+                (area.format("share"), pdf.format("nan", 0.1), "scaled temperature = 0.25: expected temperature pdf"),
+                (area.format("share"), pdf.format(1.5, "nan"), "scaled temperature = 0.75: expected temperature pdf"),
+                (area.format("share"), pdf.format(1.5, -0.1), "a half-width of at least 0"),
+                (history, "time [s],particles,solids_mass [kg]\n0,1,1\n2,1,1\n1,1,1\n", "do not ascend"),
+                (zero, still, "is 0 everywhere")):
+            name = {"b": "temperature_pdf", "t": "inventory", "h": "lateral_profile"}[table[0]]
+            self.tables(**{name: table})
+            done = self.validate(self.study([check]))
+            self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr + done.stdout)
+            self.assertIn(text, done.stderr)
+            self.assertFalse(os.path.exists(self.folder + "/out"))
+            os.remove(f"{self.folder}/a/tables/{name}.csv")
+        self.tables(temperature_pdf=pdf.format(1.5, 0.1))
+        self.assertEqual(self.validate(self.study([area.format("share")])).returncode, 0)
+
+    def test_a_profile_at_another_height_is_none(self):
+        """Tables do not say how wide their bands are: a check takes the height that it names, or none."""
+        self.tables(lateral_profile="height [m],x [m],holdup [-]\n0.3,0.01,0.1\n0.3,0.02,0.1\n")
+        check = ('quantity = "lateral holdup"\nat = {{ height = {} }}\nagainst = 0.1\nmetric = "max error"\n'
+                 "limit = 0.01")
+        self.assertEqual(self.validate(self.study([check.format("0.30")])).returncode, 0)
+        done = self.validate(self.study([check.format("0.31")]))
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("no profile at 0.31 m, there are 0.3 m", done.stderr)
+
+    def test_a_path_of_a_curve_is_relative_to_the_study(self):
+        check = 'quantity = "axial holdup"\nagainst = "mine.csv"\nmetric = "max error"\nlimit = 1'
+        study = self.study([check])
+        with open(self.folder + "/mine.csv", "w") as file:
+            file.write("z [m],holdup [-]\n0.5,0.075\n")
+        self.assertEqual(self.validate(study).returncode, 0)
+
+    def test_checks_of_one_name_are_told_apart(self):
+        """Two theories that differ by a parameter, and two limits: panels, test cases and histories of their own."""
+        theory = ('quantity = "pressure drop"\nagainst = "theory:bed weight"\nmetric = "relative bias"\n'
+                  "with = {{ area = {}, mass = 1, particle_density = 2500, gas_density = 0, gravity = 9.81 }}\n"
+                  "limit = {}")
+        self.tables(pressure_drop="time [s],pressure_drop [Pa]\n0,98\n1,98.2\n2,98\n")
+        study = self.study([theory.format(0.1, 1), theory.format(0.2, 0.1), theory.format(0.1, 1e-9)])
+        done = self.validate(study, "--json")
+        self.assertEqual(done.stderr, "")
+        checks = json.loads(done.stdout)["checks"]
+        self.assertEqual([c["verdict"] for c in checks], ["holds", "does not hold", "undecided"])
+        self.assertEqual(len({c["key"] for c in checks}), 3)
+        self.assertEqual(len([n for n in os.listdir(self.folder + "/out/checks") if n.startswith("check_")
+                              and n.endswith(".svg")]), 2)
+        names = [c.get("name") for c in xml.parse(self.folder + "/out/junit.xml").getroot().iter("testcase")]
+        self.assertEqual(len(set(names)), 3)
+        earlier = self.folder + "/earlier.json"
+        os.rename(self.folder + "/out/summary.json", earlier)
+        self.validate(study, "--earlier", earlier)
+        with open(self.folder + "/out/report.html") as file:
+            self.assertNotIn("<b>holds</b>", file.read())  # bold in the history: it has changed
 
     def test_a_density_needs_ascending_abscissae(self):
         os.makedirs(self.folder + "/mine")
@@ -406,6 +488,10 @@ class Validate(unittest.TestCase):
         self.assertIn("Chem. Eng. Sci. 169", bedscope("curves", "varas_2017/axial_holdup").stdout)
         points = bedscope("curves", "varas_2017/axial_holdup?U=5.55").stdout
         self.assertEqual(len([p for p in points.splitlines() if p[0].isdigit()]), 80)
+        with open(self.folder + "/mine.csv", "w") as file:
+            file.write(points)
+        again = bedscope("curves", "mine", "--curves", self.folder)
+        self.assertEqual((again.returncode, again.stderr), (0, ""))
         self.assertEqual(bedscope("curves", "varas_2017/axial").returncode, 2)
         self.assertIn("assumed as for a digitised plot", bedscope("curves", "varas_2017/axial_holdup").stdout)
         self.assertIn("theory:bed weight", listed)

@@ -98,6 +98,8 @@ TEST(OwnCurves, AreReadByTheSameRules) {
   EXPECT_EQ(curve.points[0].x, 0.1);
   EXPECT_EQ(curve.points[0].u_y, 0.002);
   EXPECT_EQ(open(shipped).curve(folder.path("mine.csv")).points.size(), 2U);
+  const auto based = Curves::open(std::vector<std::string>{}, folder.path(""));
+  EXPECT_EQ(based.curve("mine.csv").name, "mine.csv");
 }
 
 TEST(OwnCurves, ASingleDigitisedValueIsNotTakenAsExact) {
@@ -115,6 +117,20 @@ TEST(OwnCurves, ErrorBarsAreIntervals) {
   folder.write("bars.csv", "z [m],holdup [-],holdup_lo [-],holdup_hi [-]\n0.1,0.05,0.04,0.06\n");
   const auto curve = open(folder.path("")).curve("bars");
   EXPECT_NEAR(curve.points[0].u_y, 0.01 / 1.96, 1e-15);
+}
+
+TEST(OwnCurves, ErrorBarsAndTheUncertaintyOfReadingThemAddUp) {
+  const TemporaryFolder folder;  // as bedscope digitise writes both
+  folder.write(
+      "bars.csv",
+      "z [m],holdup [-],holdup_u [-],holdup_lo [-],holdup_hi [-]\n0.1,0.05,0.003,0.04,0.07\n");
+  const auto point = open(folder.path("")).curve("bars").points.at(0);
+  EXPECT_DOUBLE_EQ(point.up(), std::hypot(0.003, 0.02 / 1.96));
+  EXPECT_DOUBLE_EQ(point.down(), std::hypot(0.003, 0.01 / 1.96));
+  folder.write("share.csv", "z [m],holdup [-],holdup_lo [-],holdup_hi [-]\n0.1,0.05,0.04,0.07\n");
+  folder.write("share.toml", "ordinate_uncertainty = \"10 %\"\n");
+  EXPECT_DOUBLE_EQ(open(folder.path("")).curve("share").points.at(0).up(),
+                   std::hypot(0.005, 0.02 / 1.96));
 }
 
 TEST(OwnCurves, ErrorBarsKeepTheirUnequalArms) {
@@ -166,6 +182,12 @@ TEST(OwnCurves, FaultsNameFileAndLine) {
        "line 2: expected an uncertainty of at least 0"},
       {"z [m],h [-],h_lo [-],h_hi [-]\n0,1,1.2,0.8\n", "", "line 2: expected h_lo [-] <= h [-]"},
       {"z [m],holdup [-]\n0,1\n", "redistribute = \"maybe\"\n", "\"yes\" or \"no\""},
+      {"z [m],h [-],h_u [%]\n0,1,1\n", "", "column \"h_u [%]\": expected the unit of \"h [-]\""},
+      {"z [m],z_ci95 [mm],h [-]\n0,1,1\n", "", "expected the unit of \"z [m]\""},
+      {"z [m],h [-],h_lo [-],h_hi [%]\n0,1,0,2\n", "", "expected the unit of \"h [-]\""},
+      {"z [m],h [-]\n0,1\n", "ordinate_uncertainty = \"nan %\"\n", "expected a share"},
+      {"z [m],h [-]\n0,1\n", "ordinate_uncertainty = \"inf %\"\n", "expected a share"},
+      {"z [m],h [-]\n0,1\n", "orientation = \"unkown\"\n", "\"known\" or \"unknown\""},
   };
   for (const auto& [csv, sidecar, text] : cases) {
     const TemporaryFolder folder;

@@ -101,7 +101,7 @@ TEST(Verdicts, ErrorOverUncertaintyAlsoNeedsAnAccuracy) {
   const auto vague = verdict_of(check, run("a", 1.005, .001));
   EXPECT_EQ(vague.outcome, Outcome::undecided);
   EXPECT_NE(vague.reason.find("accuracy"), std::string::npos);
-  EXPECT_NE(vague.reason.find("no simulation can settle it"), std::string::npos) << vague.reason;
+  EXPECT_NE(vague.reason.find("the reference cannot settle it"), std::string::npos) << vague.reason;
   check.number_u = .0005;  // 1.96 u 0.2 of the mean, 0.1 asked for: a fourth of the time for half
   const auto short_run = verdict_of(check, run("a", 1.005, .015));
   EXPECT_EQ(short_run.outcome, Outcome::undecided);
@@ -123,6 +123,44 @@ TEST(Verdicts, OrThatTheReferenceCannot) {
   const auto verdict = verdict_of(check, run("a", 1.02, .0001));
   EXPECT_EQ(verdict.outcome, Outcome::undecided);
   EXPECT_NE(verdict.reason.find("the reference cannot settle it"), std::string::npos);
+}
+
+TEST(Verdicts, OrThatTheCellsAreTooCoarse) {
+  auto coarse = run("a", 1, .0001);
+  auto& axial = coarse.species[0].axial;
+  axial.coordinate = {0, 1, 2, 3, 4};
+  axial.holdup = {{.1, .0001}, {.05, .0001}, {.1, .0001}, {.05, .0001}, {.1, .0001}};
+  const Check check{.place = {.quantity = "axial holdup"},
+                    .against = "run:b",
+                    .metric = "max error",
+                    .limit = .01};
+  auto other = coarse;
+  other.label = "b";
+  for (double& z : other.species[0].axial.coordinate) z += .5;
+  for (auto& holdup : other.species[0].axial.holdup) holdup.value = .075;
+  const auto verdict = evaluate(check, std::vector{coarse, other}, Curves{}, "study.toml").at(0);
+  EXPECT_EQ(verdict.outcome, Outcome::undecided);
+  EXPECT_NE(verdict.reason.find("smaller cells might"), std::string::npos) << verdict.reason;
+}
+
+TEST(Verdicts, AreOfTheSameComparisonWhereOnlyMetricAndLimitDiffer) {
+  const auto a = run("a", 1, .001);
+  auto theory = Check{.place = {.quantity = "mean holdup"},
+                      .against = "theory:bed weight",
+                      .with = {{"area", 1}},
+                      .metric = "max error",
+                      .limit = 1};
+  Verdict one{.check = theory, .run = "a"}, other = one;
+  other.check.metric = "relative bias";
+  other.check.limit = 2;
+  EXPECT_TRUE(same_comparison(one, other));
+  other.check.with["area"] = 2;
+  EXPECT_FALSE(same_comparison(one, other));
+  other = one;
+  other.run = "b";
+  EXPECT_FALSE(same_comparison(one, other));
+  Verdict number = verdict_of(against(.075, "max error", 1), a);
+  EXPECT_FALSE(same_comparison(number, verdict_of(against(.0750001, "max error", 1), a)));
 }
 
 TEST(Verdicts, AgainstAnotherRunAndAgainstAllOthers) {
