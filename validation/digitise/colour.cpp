@@ -63,10 +63,10 @@ std::vector<cv::Vec3f> core_colours(const cv::Mat& difference) {
 }
 
 /// The colour of the picture that is meant by `asked`: the mean of the core colours near it;
-/// `asked` itself where a compressed picture only shows it thinned. Nothing where fewer than
-/// `least` are near.
+/// `asked` itself where the picture only shows it thinned: fine lines, compressed or blurred.
+/// Nothing where fewer than `least` are near.
 std::optional<cv::Vec3f> find_again(const std::vector<cv::Vec3f>& cores, cv::Vec3f asked,
-                                    bool lossy, std::size_t least) {
+                                    bool smeared, std::size_t least) {
   for (const float tolerance : {18.0F, 35.0F, same_ink, 1.5F * same_ink}) {
     cv::Vec3d sum;
     std::size_t n = 0;
@@ -78,10 +78,10 @@ std::optional<cv::Vec3f> find_again(const std::vector<cv::Vec3f>& cores, cv::Vec
     if (n >= least) return cv::Vec3f(sum / static_cast<double>(n));
   }
   const auto thinned = std::count_if(cores.begin(), cores.end(), [&](cv::Vec3f core) {
-    const auto [share, rest] = smeared_share_of(core, asked);
+    const auto [share, rest] = smeared ? smeared_share_of(core, asked) : share_of(core, asked);
     return share > 0.25F && rest < 20;
   });
-  if (lossy && static_cast<std::size_t>(thinned) >= least) return asked;
+  if (static_cast<std::size_t>(thinned) >= least) return asked;
   return std::nullopt;
 }
 

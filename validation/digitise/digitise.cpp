@@ -230,7 +230,17 @@ class Digitiser {
       map.unknown(there - area_.tl()).setTo(255);
     }
     clear_rules(map);
+    hide_edges(map);
     return map;
+  }
+
+  /// Where no ink is seen along the plot's edges a frame may lie over it, in the paper's colour
+  /// too: half of its thickness, for which two points in a plot of five inches are much.
+  static void hide_edges(InkMap& map) {
+    const int strip = std::max(2, cvRound(0.006 * std::min(map.unknown.cols, map.unknown.rows)));
+    cv::Mat inner = cv::Mat::zeros(map.unknown.size(), CV_8U);
+    inner(cv::Range(strip, inner.rows - strip), cv::Range(strip, inner.cols - strip)).setTo(255);
+    map.unknown.setTo(255, (inner == 0) & (map.coverage < 0.06F));
   }
 
   /// Whether most of the ink's outline touches another ink.

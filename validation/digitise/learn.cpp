@@ -102,7 +102,9 @@ std::optional<Template> learn(const InkMap& map, const MarkerQuery& query) {
 std::optional<Template> markers_on_line(const InkMap& map) {
   const double stroke = stroke_width(map.coverage);
   const auto marker = learn(map, {});
-  if (!marker || std::min(marker->box.width, marker->box.height) < 2.0 * stroke) return {};
+  // A cross has arms; a blurred dot looks like one without.
+  const double least = marker && is_strokes(marker->shape.outline) ? 4 : 2;
+  if (!marker || std::min(marker->box.width, marker->box.height) < least * stroke) return {};
   if (breadth_of(marker->ink) < 0.5) return {};  // dashes
   const auto found = find_markers(map, {*marker});
   std::vector<double> scores;

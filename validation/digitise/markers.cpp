@@ -9,7 +9,8 @@ namespace bedscope::digitise {
 namespace {
 
 constexpr double least_known = 0.35;
-constexpr double least_ink = 0.45;  // of each eighth
+constexpr double least_known_well = 0.25;  ///< of half a marker at the plot's edge, less the frame
+constexpr double least_ink = 0.45;         // of each eighth
 
 /// Where a template may lie, coarsely: peaks of the correlation at a size of a dozen pixels.
 std::vector<cv::Point2d> guesses(const InkMap& map, const Template& marker) {
@@ -48,10 +49,11 @@ double worth(const Fit& fit) { return fit.score * std::sqrt(fit.known); }
 
 /// Ink in all directions. One eighth may lack it where the whole fits well, half way from the
 /// poorest marker to a perfect one: under the edge of another curve, or at the end of a line whose
-/// other markers, and so the template, have it on both sides.
+/// other markers, and so the template, have it on both sides. So it is with what is not known.
 bool good(const Fit& fit) {
   constexpr double well = (least_score + 1) / 2;
-  return fit.score > least_score && fit.known > least_known &&
+  const double known = fit.score > well ? least_known_well : least_known;
+  return fit.score > least_score && fit.known > known &&
          (fit.least_part > least_ink || (fit.next_part > least_ink && fit.score > well));
 }
 

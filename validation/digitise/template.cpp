@@ -59,15 +59,18 @@ double correlation(const cv::Mat& a, const cv::Mat& b) {
   return aa > 0 && bb > 0 ? ab / std::sqrt(aa * bb) : 0;
 }
 
-/// The box of the pixels that are at least half covered, at sub-pixel edges: by how much the
-/// outermost rows and columns are covered.
+/// The box of the pixels that are at least half as much covered as the most covered one (a thin
+/// stroke, blurred, covers none of them by half), at sub-pixel edges: by how much the outermost
+/// rows and columns are covered.
 cv::Rect2d box_of(const cv::Mat& ink) {
   cv::Mat columns, rows;
   cv::reduce(ink, columns, 0, cv::REDUCE_MAX);
   cv::reduce(ink, rows, 1, cv::REDUCE_MAX);
-  const auto extent = [](const cv::Mat& profile) {
+  double most = 0;
+  cv::minMaxLoc(columns, nullptr, &most);
+  const auto extent = [most](const cv::Mat& profile) {
     const auto n = static_cast<int>(profile.total());
-    const auto at = [&](int i) { return static_cast<double>(profile.at<float>(i)); };
+    const auto at = [&](int i) { return profile.at<float>(i) / std::max(most, 1e-6); };
     int first = 0, last = n - 1;
     while (first < n - 1 && at(first) < 0.5) ++first;
     while (last > 0 && at(last) < 0.5) --last;

@@ -114,6 +114,38 @@ TEST(Learn, BlurredOutlinesThatStandAlone) {
   EXPECT_EQ(find_markers(map, {*marker})[0].size(), at.size());
 }
 
+TEST(Learn, OutlinesSoThinThatABlurCoversNoPixelByHalf) {
+  auto map = empty();
+  const auto at = places(9);
+  for (const auto place : at) add(map, marker_at({Outline::circle, Fill::open}, 14, 0.8, place));
+  cv::GaussianBlur(map.coverage, map.coverage, {}, 0.9);
+  ASSERT_LT(*std::max_element(map.coverage.begin<float>(), map.coverage.end<float>()), 0.5F);
+  expect_found(map, at, Outline::circle, Fill::open, 14);
+}
+
+TEST(Learn, BlurredDotsOfALineAreNoMarkers) {
+  auto map = empty();
+  for (double x = 20; x < 400; x += 7)
+    add(map, marker_at({Outline::circle, Fill::filled}, 2.5, 1, {x, 60 + 0.3 * x}));
+  cv::GaussianBlur(map.coverage, map.coverage, {}, 1.0);
+  EXPECT_FALSE(markers_on_line(map));
+}
+
+TEST(Markers, HalfOfOneAtThePlotsEdgeIsEnoughWhereItFitsWell) {
+  auto map = empty();
+  const Shape diamond{Outline::diamond, Fill::filled};
+  add(map, marker_at(diamond, 30, 1, {0.5, 80.3}));
+  add(map, marker_at(diamond, 30, 1, {200.2, 120}));
+  // A frame in the paper's colour lies over the edge: nothing is known there.
+  map.coverage.colRange(0, 4).setTo(0);
+  map.unknown.colRange(0, 4).setTo(255);
+  const auto found =
+      find_markers(map, {make_template(draw_shape(diamond, {30, 30}, 1, {34, 34}), diamond)})[0];
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_NEAR(found[1].at.x, 0.5, 0.2);
+  EXPECT_NEAR(found[1].at.y, 80.3, 0.2);
+}
+
 TEST(Learn, DashesOfASteepLineAreNoMarkers) {
   auto map = empty();
   const cv::Point2d along = cv::Point2d(1, 1.8) / std::hypot(1, 1.8);

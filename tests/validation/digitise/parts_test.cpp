@@ -8,6 +8,7 @@
 #include "readers/error.hpp"
 #include "validation/digitise/calibration.hpp"
 #include "validation/digitise/clear.hpp"
+#include "validation/digitise/colour.hpp"
 #include "validation/digitise/doubt.hpp"
 #include "validation/digitise/legend.hpp"
 #include "validation/digitise/lines.hpp"
@@ -366,6 +367,14 @@ TEST(Doubt, AnInkThatNoiseCannotTellFromAnother) {
   EXPECT_EQ(ink_beside(colours, 2), -1);
   colours.lossy = false;
   EXPECT_EQ(ink_beside(colours, 0), -1);
+}
+
+TEST(Colour, AFineLineThatShowsItsColourThinnedOnly) {
+  cv::Mat page(120, 200, CV_8UC3, cv::Scalar::all(255));
+  page.row(60).setTo(cv::Scalar(255, 140, 140));  // blue (BGR) at 45 %
+  const auto colours = separate(page, {0, 0, 200, 120}, false, {{244, 0, 8}}, {"a"}, "f");
+  EXPECT_NEAR(coverage_of(colours, colours.ink_of_asked[0]).at<float>(60, 100), 0.45, 0.05);
+  EXPECT_THROW(separate(page, {0, 0, 200, 120}, false, {{0, 200, 0}}, {"a"}, "f"), InputError);
 }
 
 TEST(Legend, DashesBetweenMarkersWithBarsAreNoWords) {
