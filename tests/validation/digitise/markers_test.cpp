@@ -123,11 +123,10 @@ TEST(Learn, OutlinesSoThinThatABlurCoversNoPixelByHalf) {
   expect_found(map, at, Outline::circle, Fill::open, 14);
 }
 
-TEST(Learn, BlurredDotsOfALineAreNoMarkers) {
+TEST(Learn, DotsOfALineAreNoMarkers) {
   auto map = empty();
-  for (double x = 20; x < 400; x += 7)
-    add(map, marker_at({Outline::circle, Fill::filled}, 2.5, 1, {x, 60 + 0.3 * x}));
-  cv::GaussianBlur(map.coverage, map.coverage, {}, 1.0);
+  for (double x = 20; x < 400; x += 3.2)
+    add(map, stroke_from({x, 60 + 0.3 * x}, {x + 2, 60 + 0.3 * (x + 2)}, 2));
   EXPECT_FALSE(markers_on_line(map));
 }
 
@@ -147,14 +146,20 @@ TEST(Markers, HalfOfOneAtThePlotsEdgeIsEnoughWhereItFitsWell) {
 }
 
 TEST(Learn, DashesOfASteepLineAreNoMarkers) {
-  auto map = empty();
-  const cv::Point2d along = cv::Point2d(1, 1.8) / std::hypot(1, 1.8);
-  for (double t = 0; t < 200; t += 17) {  // dash, dot
-    const cv::Point2d dash = cv::Point2d(60, 20) + t * along, dot = dash + 12 * along;
-    add(map, stroke_from(dash, dash + 9 * along, 1.6));
-    add(map, stroke_from(dot, dot + 1.6 * along, 1.6));
-  }
-  EXPECT_FALSE(markers_on_line(map));
+  for (const double width : {1.2, 1.6})
+    for (const double steep : {0.8, 1.5}) {
+      auto map = empty();
+      add(map, stroke_from({20, 20}, {60, 20}, width));
+      cv::Point2d at(60, 20);
+      for (int i = 0; at.y < 220 && i < 14; ++i) {  // dash, dot, on a line that turns
+        const double slope = steep + 0.05 * i;
+        const cv::Point2d along = cv::Point2d(1, slope) / std::hypot(1, slope);
+        add(map, stroke_from(at, at + 10 * along, width));
+        add(map, stroke_from(at + 11.5 * along, at + (11.5 + width) * along, width));
+        at += (13 + width) * along;
+      }
+      EXPECT_FALSE(markers_on_line(map)) << width << " " << steep;
+    }
 }
 
 TEST(Template, TrimmedLosesTheStubsOfABar) {
