@@ -235,7 +235,7 @@ class Digitiser {
   }
 
   /// Where no ink is seen along the plot's edges a frame may lie over it, in the paper's colour
-  /// too: half of its thickness, for which two points in a plot of five inches are much.
+  /// too: by half its thickness, of three points in a plot of three and a half inches.
   static void hide_edges(InkMap& map) {
     const int strip = std::max(2, cvRound(0.006 * std::min(map.unknown.cols, map.unknown.rows)));
     cv::Mat inner = cv::Mat::zeros(map.unknown.size(), CV_8U);
