@@ -246,8 +246,7 @@ TracedLine sample(const InkMap& map, const Path& path, double stroke, int points
 
 /// Blobs thicker than the line (markers) tell nothing of its place, unless they are most of it.
 void hide_blobs(InkMap& map, double stroke) {
-  // Five pixels at least: three lie in a slanting line of one and a half.
-  const int disc = 2 * std::max(2, cvRound(0.85 * stroke + 0.5)) + 1;
+  const int disc = 2 * cvRound(0.85 * stroke + 0.5) + 1;
   cv::Mat blobs, mask = map.coverage > 0.3F;
   mask.setTo(0, map.unknown);
   cv::morphologyEx(mask, blobs, cv::MORPH_OPEN,

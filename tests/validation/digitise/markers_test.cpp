@@ -5,6 +5,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "tests/validation/digitise/drawn_stroke.hpp"
 #include "validation/digitise/error_bars.hpp"
 #include "validation/digitise/markers.hpp"
 
@@ -25,19 +26,8 @@ cv::Mat marker_at(const Shape& shape, double size, double stroke, cv::Point2d at
                     {at.x - columns / 2.0, at.y - rows / 2.0});
 }
 
-/// A straight stroke, drawn in eighths of a pixel.
 cv::Mat stroke_from(cv::Point2d a, cv::Point2d b, double width) {
-  constexpr int fine = 8;
-  cv::Mat canvas = cv::Mat::zeros(fine * rows, fine * columns, CV_8U), ink;
-  const cv::Point2d along = (b - a) / cv::norm(b - a),
-                    side = cv::Point2d(-along.y, along.x) * (width / 2);
-  std::vector<cv::Point> corners;
-  for (const auto p : {a + side, b + side, b - side, a - side})
-    corners.emplace_back(cvRound(fine * p.x - 0.5), cvRound(fine * p.y - 0.5));
-  cv::fillConvexPoly(canvas, corners, cv::Scalar(255));
-  cv::resize(canvas, canvas, {columns, rows}, 0, 0, cv::INTER_AREA);
-  canvas.convertTo(ink, CV_32F, 1 / 255.0);
-  return ink;
+  return drawn_stroke(a, b, width, {columns, rows});
 }
 
 /// An upright bar from `length` above to `length` below, with caps.
@@ -82,24 +72,27 @@ TEST(Learn, OpenMarkersThatHideAThickLineOfTheirInk) {
   expect_found(map, at, Outline::circle, Fill::open, 15);
 }
 
-TEST(Learn, OpenMarkersThroughWhichBarsGo) {
+/// Markers with bars of `width` through them.
+InkMap with_bars(const std::vector<cv::Point2d>& at, const Shape& shape, double size, double stroke,
+                 double length, double width, double cap) {
   auto map = empty();
-  const auto at = places(6);
   for (const auto place : at) {
-    add(map, marker_at({Outline::square, Fill::open}, 16, 2.5, place));
-    add_bar(map, place, 20, 3, 0);
+    add(map, marker_at(shape, size, stroke, place));
+    add_bar(map, place, length, width, cap);
   }
-  expect_found(map, at, Outline::square, Fill::open, 16);
+  return map;
+}
+
+TEST(Learn, OpenMarkersThroughWhichBarsGo) {
+  const auto at = places(6);
+  const Shape square{Outline::square, Fill::open};
+  expect_found(with_bars(at, square, 16, 2.5, 20, 3, 0), at, square.outline, square.fill, 16);
 }
 
 TEST(Learn, CrossesWithBarsAreNoTriangles) {
-  auto map = empty();
   const auto at = places(8);
-  for (const auto place : at) {
-    add(map, marker_at({Outline::x, Fill::any}, 15, 3, place));
-    add_bar(map, place, 30, 2.5, 6);
-  }
-  expect_found(map, at, Outline::x, Fill::any, 15);
+  const Shape x{Outline::x, Fill::any};
+  expect_found(with_bars(at, x, 15, 3, 30, 2.5, 6), at, x.outline, x.fill, 15);
 }
 
 TEST(Learn, BlurredOutlinesThatStandAlone) {
@@ -108,10 +101,7 @@ TEST(Learn, BlurredOutlinesThatStandAlone) {
   for (const auto place : at)
     add(map, marker_at({Outline::triangle_right, Fill::open}, 19, 1.2, place));
   cv::GaussianBlur(map.coverage, map.coverage, {}, 1.0);
-  const auto marker = learn(map, {});
-  ASSERT_TRUE(marker);
-  EXPECT_EQ(name_of(marker->shape), "open triangle_right");
-  EXPECT_EQ(find_markers(map, {*marker})[0].size(), at.size());
+  expect_found(map, at, Outline::triangle_right, Fill::open, 19);
 }
 
 TEST(Learn, OutlinesSoThinThatABlurCoversNoPixelByHalf) {
@@ -123,10 +113,12 @@ TEST(Learn, OutlinesSoThinThatABlurCoversNoPixelByHalf) {
   expect_found(map, at, Outline::circle, Fill::open, 14);
 }
 
-TEST(Learn, DotsOfALineAreNoMarkers) {
+TEST(Learn, BlurredDotsOfALineAreNoCrosses) {
   auto map = empty();
-  for (double x = 20; x < 400; x += 3.2)
-    add(map, stroke_from({x, 60 + 0.3 * x}, {x + 2, 60 + 0.3 * (x + 2)}, 2));
+  const cv::Point2d along = cv::Point2d(1, 0.7) / std::hypot(1, 0.7);
+  for (cv::Point2d at(20, 34); at.y < 225; at += 5.28 * along)
+    add(map, stroke_from(at, at + 2.4 * along, 2.4));
+  cv::GaussianBlur(map.coverage, map.coverage, {}, 0.9);
   EXPECT_FALSE(markers_on_line(map));
 }
 
@@ -189,21 +181,26 @@ TEST(Template, APatchOfALineIsNotDistinct) {
   EXPECT_GT(distinct(marker, map, fit(marker, map, {200, 60})), 0.2);
 }
 
-TEST(ErrorBars, AShortOneIsReadByTheThicknessOfTheOthers) {
+/// Squares of 11 pixels with bars of the given lengths: both ends of each are found within half a
+/// pixel.
+void expect_bars(const std::vector<double>& lengths, double width, double cap) {
   auto map = empty();
-  const auto at = places(7);
+  const auto at = places(static_cast<int>(lengths.size()));
   const Shape square{Outline::square, Fill::filled};
   for (std::size_t i = 0; i < at.size(); ++i) {
     add(map, marker_at(square, 11, 1, at[i]));
-    add_bar(map, at[i], i % 2 == 0 ? 25 : 10.5, 2, 4);
+    add_bar(map, at[i], lengths[i], width, cap);
   }
   const auto marker = make_template(draw_shape(square, {11, 11}, 1, {15, 15}), square);
   const auto bars = find_error_bars(map, marker, at, true);
   for (std::size_t i = 0; i < at.size(); ++i) {
-    const double length = i % 2 == 0 ? 25 : 10.5;
-    EXPECT_NEAR(bars[i].upper, at[i].y - length, 0.5) << i;
-    EXPECT_NEAR(bars[i].lower, at[i].y + length, 0.5) << i;
+    EXPECT_NEAR(bars[i].upper, at[i].y - lengths[i], 0.5) << i;
+    EXPECT_NEAR(bars[i].lower, at[i].y + lengths[i], 0.5) << i;
   }
+}
+
+TEST(ErrorBars, CapsCloseToTheirMarkersAreRead) {
+  expect_bars({25, 8.5, 25, 9, 25, 8.5, 25}, 2, 4.5);
 }
 
 TEST(ErrorBars, WhatResemblesAMarkerLittleAndLiesOnABarIsNone) {

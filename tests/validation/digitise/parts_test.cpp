@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "readers/error.hpp"
+#include "tests/validation/digitise/drawn_stroke.hpp"
 #include "validation/digitise/calibration.hpp"
 #include "validation/digitise/clear.hpp"
 #include "validation/digitise/colour.hpp"
@@ -246,22 +247,16 @@ TEST(Uncertainty, WholePixelsAreExcludedOnlyByWhatIsSeen) {
   expect(anywhere, 2, false, 0.125, 0.165);
 }
 
-/// A dashed straight line through (`x`, 20) of `width` pixels, drawn in eighths of them.
+/// A dashed straight line through (`x`, 20) of `width` pixels.
 InkMap dashed_line(double x, double slope, double width, double dash, double gap) {
-  constexpr int fine = 8, rows = 240, columns = 200;
-  cv::Mat canvas = cv::Mat::zeros(fine * rows, fine * columns, CV_8U), coverage;
-  const cv::Point2d along = cv::Point2d(1, slope) / std::hypot(1, slope),
-                    side = cv::Point2d(-along.y, along.x) * (width / 2), first(x, 20);
+  const cv::Size size(200, 240);
+  InkMap map{cv::Mat::zeros(size, CV_32F), cv::Mat::zeros(size, CV_8U)};
+  const cv::Point2d along = cv::Point2d(1, slope) / std::hypot(1, slope), first(x, 20);
   for (double t = 0; first.y + t * along.y < 95; t += dash + gap) {
-    const cv::Point2d a = first + t * along, b = a + dash * along;
-    std::vector<cv::Point> corners;
-    for (const auto p : {a + side, b + side, b - side, a - side})
-      corners.emplace_back(cvRound(fine * p.x - 0.5), cvRound(fine * p.y - 0.5));
-    cv::fillConvexPoly(canvas, corners, cv::Scalar(255));
+    const cv::Point2d from = first + t * along;
+    map.coverage = cv::max(map.coverage, drawn_stroke(from, from + dash * along, width, size));
   }
-  cv::resize(canvas, canvas, {columns, rows}, 0, 0, cv::INTER_AREA);
-  canvas.convertTo(coverage, CV_32F, 1 / 255.0);
-  return {coverage, cv::Mat::zeros(rows, columns, CV_8U)};
+  return map;
 }
 
 TEST(Clear, DashedRulesAreTakenAwayAndMarkersAtOneHeightAreNot) {
