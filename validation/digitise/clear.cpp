@@ -41,20 +41,34 @@ void clear_row(cv::Mat coverage, cv::Mat unknown) {
   }
 }
 
-/// Rows of rules, each with its paler edge rows.
-void clear_rows(cv::Mat coverage, cv::Mat unknown) {
-  const int rows = coverage.rows;
-  std::vector<bool> ruled(rows);
-  for (int y = 0; y < rows; ++y) ruled[y] = spread(coverage.row(y), 0.25);
-  // A rule is thin: where a tenth of the rows around are ruled this is a picture, not a grid.
-  int widest = 0, run = 0;
-  for (int y = 0; y < rows; ++y) {
-    run = ruled[y] ? run + 1 : 0;
-    widest = std::max(widest, run);
+/// Rows of ink from edge to edge, by their runs. None where they are so thick that this is a
+/// picture, not a grid: a rule is thin.
+std::vector<cv::Range> ruled_rows(const cv::Mat& coverage) {
+  std::vector<cv::Range> ruled;
+  for (int y = 0; y < coverage.rows; ++y) {
+    if (!spread(coverage.row(y), 0.25)) continue;
+    if (ruled.empty() || ruled.back().end < y)
+      ruled.emplace_back(y, y + 1);
+    else
+      ++ruled.back().end;
   }
-  if (widest > std::max(12, rows / 25)) return;
-  for (int y = 0; y < rows; ++y)
-    if (ruled[y]) clear_row(coverage.row(y), unknown.row(y));
+  const int thickest = std::max(12, coverage.rows / 25);
+  if (std::any_of(ruled.begin(), ruled.end(),
+                  [&](const cv::Range& rule) { return rule.size() > thickest; }))
+    return {};
+  return ruled;
+}
+
+/// Whether a rule lies in the plot and not on its edge, where the frame is.
+bool is_inside(const cv::Range& rule, int rows) {
+  const int edge = std::max(4, rows / 50);
+  return rule.start >= edge && rule.end <= rows - edge;
+}
+
+/// Each rule with its paler edge rows.
+void clear_rows(cv::Mat coverage, cv::Mat unknown, const std::vector<cv::Range>& ruled) {
+  for (const auto& rule : ruled)
+    for (int y = rule.start; y < rule.end; ++y) clear_row(coverage.row(y), unknown.row(y));
 }
 
 /// Whether there is paper round a stroke that sticks in from the left edge of the map: it is a
@@ -101,10 +115,39 @@ cv::Mat mirrored(const cv::Mat& m) {
 
 }  // namespace
 
-void clear_rules(InkMap& map) {
-  clear_rows(map.coverage, map.unknown);
+void clear_rules(InkMap& map, bool is_grey) {
   cv::Mat coverage = map.coverage.t(), unknown = map.unknown.t();
-  clear_rows(coverage, unknown);
+  auto rows = ruled_rows(map.coverage), columns = ruled_rows(coverage);
+  const auto take_inside = [](std::vector<cv::Range>& ruled, int n) {
+    std::vector<cv::Range> inside;
+    std::copy_if(ruled.begin(), ruled.end(), std::back_inserter(inside),
+                 [&](const cv::Range& rule) { return is_inside(rule, n); });
+    std::erase_if(ruled, [&](const cv::Range& rule) { return is_inside(rule, n); });
+    return inside;
+  };
+  const auto inner_rows = take_inside(rows, map.coverage.rows),
+             inner_columns = take_inside(columns, map.coverage.cols);
+  const auto clear = [&](const std::vector<cv::Range>& ruled,
+                         const std::vector<cv::Range>& across) {
+    clear_rows(map.coverage, map.unknown, ruled);
+    coverage = map.coverage.t(), unknown = map.unknown.t();
+    clear_rows(coverage, unknown, across);
+    map.coverage = coverage.t(), map.unknown = unknown.t();
+  };
+  clear(rows, columns);
+  // A grid has more lines than one: one alone is the data's, a constant, if it has a colour of its
+  // own or holds most of the ink.
+  bool constant = inner_rows.size() + inner_columns.size() == 1;
+  if (constant && is_grey) {
+    // With as many rows on both sides, as it may wave a little.
+    const auto& rule = inner_rows.empty() ? inner_columns[0] : inner_rows[0];
+    const cv::Mat& along = inner_rows.empty() ? coverage : map.coverage;
+    const int more = std::min({rule.size(), rule.start, along.rows - rule.end});
+    constant = cv::sum(along.rowRange(rule.start - more, rule.end + more))[0] >
+               0.5 * cv::sum(map.coverage)[0];
+  }
+  if (!constant) clear(inner_rows, inner_columns);
+  coverage = map.coverage.t(), unknown = map.unknown.t();
   for (int turn = 0; turn < 2; ++turn) {  // top, bottom; then left, right
     clear_ticks(coverage, unknown);
     cv::Mat far_coverage = mirrored(coverage), far_unknown = mirrored(unknown);

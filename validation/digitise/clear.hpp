@@ -8,7 +8,8 @@ namespace bedscope::digitise {
 
 /// Lines over the whole width or height of the map, unbroken or dashed. A pale line is taken out of
 /// the mixture, c = (seen - pale) / (1 - pale); under a dark one nothing is known. Then the ticks:
-/// what sticks in from the edges, thin and short.
-void clear_rules(InkMap& map);
+/// what sticks in from the edges, thin and short. A single line that is not on the edge stays: it
+/// is a constant, not a grid; in grey (`is_grey`) if it holds most of the ink.
+void clear_rules(InkMap& map, bool is_grey);
 
 }  // namespace bedscope::digitise

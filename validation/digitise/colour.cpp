@@ -85,6 +85,15 @@ std::optional<cv::Vec3f> find_again(const std::vector<cv::Vec3f>& cores, cv::Vec
   return std::nullopt;
 }
 
+/// Whether two colours that were found are those of one ink: near each other, or of one hue and
+/// the paler by up to a fifth, as the edges of its strokes are.
+bool are_one_ink(cv::Vec3f a, cv::Vec3f b) {
+  if (length(a - b) < 20) return true;
+  const auto [pale, full] = length(a) < length(b) ? std::pair(a, b) : std::pair(b, a);
+  const auto [share, rest] = share_of(pale, full);
+  return share > 0.8F && rest < 12;
+}
+
 /// A colour that is a mixture of paper and one of `inks`, or nearly one of them.
 bool is_mixture(cv::Vec3f colour, const std::vector<cv::Vec3f>& inks, bool lossy) {
   return std::any_of(inks.begin(), inks.end(), [&](cv::Vec3f ink) {
@@ -217,9 +226,12 @@ Colours separate(const cv::Mat& page, const cv::Rect& area, bool lossy,
           names[i], hex_of(asked[i]));
     // Colours given by eye may mean the same ink.
     const auto same = std::find_if(inks.begin(), inks.end(),
-                                   [&](cv::Vec3f ink) { return length(ink - *found) < 20; });
+                                   [&](cv::Vec3f ink) { return are_one_ink(ink, *found); });
     colours.ink_of_asked.push_back(static_cast<int>(same - inks.begin()));
-    if (same == inks.end()) inks.push_back(*found);
+    if (same == inks.end())
+      inks.push_back(*found);
+    else if (length(*found) > length(*same) + 20)
+      *same = *found;
   }
   if (const auto neutral = neutral_beside(inks, colours.paper)) inks.push_back(*neutral);
   add_others(cores, smeared, inks);

@@ -46,6 +46,11 @@ cv::Mat ink_of_page(const Page& page, const cv::Rect2d& plot) {
   return cv::min(ink_of(image, paper_of(image, whole)), ink_of(image, paper_of(image, inside)));
 }
 
+bool is_grey(cv::Vec3f colour) {
+  const auto [least, most] = std::minmax({colour[0], colour[1], colour[2]});
+  return most - least < 40;
+}
+
 double shorter_side(const cv::Rect2d& box) {
   return std::max(8.0, std::min(box.width, box.height));
 }
@@ -190,12 +195,11 @@ class Digitiser {
       found_.left_out.push_back(whole_pixels(page_.to_page(box), page_.image().size()));
     const cv::Mat ink = ink_of_page(page_, area_);
     const auto rules = find_rules(ink, std::max(12.0, 0.03 * area_.height), thickest(area_));
-    auto boxes = find_boxes(rules, area_);
+    auto boxes = find_boxes(rules, ink, area_);
     cv::Mat text = cv::Mat::zeros(ink.size(), CV_32F);
     for (std::size_t k = 0; k < colours_.inks.size(); ++k) {
       const auto& c = colours_.inks[k];
-      const auto [least, most] = std::minmax({c[0], c[1], c[2]});
-      if (most - least < 40 && cv::norm(c - colours_.paper) > 150)
+      if (is_grey(c) && cv::norm(c - colours_.paper) > 150)
         text += coverage_of(colours_, static_cast<int>(k));
     }
     const auto rows = find_legend_rows(text, ink, area_);
@@ -229,7 +233,7 @@ class Digitiser {
       map.coverage(there - area_.tl()).setTo(0);
       map.unknown(there - area_.tl()).setTo(255);
     }
-    clear_rules(map);
+    clear_rules(map, is_grey(colours_.inks[static_cast<std::size_t>(ink)]));
     hide_edges(map);
     return map;
   }
@@ -257,21 +261,24 @@ class Digitiser {
     auto map = map_of(ink);
     std::vector<Template> templates;
     std::vector<std::size_t> with_markers;
-    for (const auto i : members) {
-      if (figure_.series[i].kind != Kind::markers) continue;
-      const auto marker = learn(map, query_of(figure_.series[i], ink));
-      if (!marker)
+    std::vector<MarkerQuery> queries;
+    for (const auto i : members)
+      if (figure_.series[i].kind == Kind::markers) {
+        with_markers.push_back(i);
+        queries.push_back(query_of(figure_.series[i], ink));
+      }
+    const auto learned = learn_all(map, queries);
+    for (std::size_t t = 0; t < learned.size(); ++t) {
+      const auto& series = figure_.series[with_markers[t]];
+      if (!learned[t])
         throw InputError(
             "{}: series \"{}\": expected markers of colour {}{} in the plot area, found none",
-            where_, figure_.series[i].name, hex_of(figure_.series[i].colour),
-            figure_.series[i].shape ? " and shape " + name_of(*figure_.series[i].shape) : "");
-      templates.push_back(*marker);
-      with_markers.push_back(i);
+            where_, series.name, hex_of(series.colour),
+            series.shape ? " and shape " + name_of(*series.shape) : "");
+      templates.push_back(*learned[t]);
     }
     auto markers = find_markers(map, templates);
-    const bool with_line = std::any_of(members.begin(), members.end(), [&](std::size_t i) {
-      return figure_.series[i].kind == Kind::line;
-    });
+    const bool with_line = has_line(members);
     for (std::size_t t = 0; t < templates.size(); ++t)
       if (figure_.series[with_markers[t]].error_bars)
         drop_on_bars(map, templates[t], markers[t], with_line);
@@ -343,6 +350,11 @@ class Digitiser {
     return places.size() > 3 ? text + " ..." : text;
   }
 
+  bool has_line(const std::vector<std::size_t>& members) const {
+    return std::any_of(members.begin(), members.end(),
+                       [&](std::size_t i) { return figure_.series[i].kind == Kind::line; });
+  }
+
   /// The shapes of an ink: those that are named where each of several series names its own.
   std::vector<Shape> shapes_among(const std::vector<std::size_t>& members) const {
     std::vector<Shape> named;
@@ -360,6 +372,12 @@ class Digitiser {
     MarkerQuery query;
     query.shape = series.shape;
     query.among = shapes_among(members_.at(ink));
+    query.with_line = has_line(members_.at(ink));
+    for (const auto i : members_.at(ink)) {
+      const auto& other = figure_.series[i];
+      if (other.kind != Kind::markers || !other.shape || &other == &series) continue;
+      for (const auto& shape : candidates(other.shape)) query.rivals.push_back(shape);
+    }
     if (!series.sample) return query;
     const cv::Rect2d wanted = *series.sample;
     const cv::Rect box = whole_pixels(page_.to_page(wanted), page_.image().size());

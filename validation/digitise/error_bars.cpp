@@ -44,8 +44,22 @@ struct Looker {
 struct End {
   double row = std::numeric_limits<double>::quiet_NaN();
   double half_cap = 0;
+  int cap = 0;        ///< its rows
   int thickness = 0;  ///< of the bar; 0: none is seen
 };
+
+/// How far a stroke leans from end to end: from the median of its first third of rows to that of
+/// its last, as what it touches at its ends would shift these.
+double lean_of(const std::vector<double>& centres) {
+  const auto third = static_cast<std::ptrdiff_t>((centres.size() + 2) / 3);
+  std::vector<double> first(centres.begin(), centres.begin() + third),
+      last(centres.end() - third, centres.end());
+  for (auto* part : {&first, &last})
+    std::nth_element(part->begin(), part->begin() + third / 2, part->end());
+  const auto n = static_cast<double>(centres.size());
+  const double apart = std::abs(last[third / 2] - first[third / 2]);
+  return n > 1 ? apart * (n - 1) / (n - static_cast<double>(third)) : 0;
+}
 
 /// The end of a stroke that leaves the marker's edge row `start` in direction `step` (+1 down).
 /// `thickness`: of the bar where others show it, else 0.
@@ -53,6 +67,8 @@ End end_of(const Looker& look, int x, int start, int step, double marker_width, 
            int thickness) {
   const End none;
   std::vector<int> breadths;
+  std::vector<double> centres;
+  const double halo = std::max(2.0, marker_width / 4);  // paper that gnuplot leaves round a marker
   int y = start, last = start - step, broken = 0;
   for (; y >= 0 && y < look.map.coverage.rows; y += step) {
     if (look.unknown(y, x)) {
@@ -60,11 +76,13 @@ End end_of(const Looker& look, int x, int start, int step, double marker_width, 
       continue;
     }
     if (look.on_bar(y, x) < 0.3) {
+      if (breadths.empty() && std::abs(y - start) < halo) continue;
       if (broken == 0 || look.on_bar(y + step, x) < 0.3) break;
     }
     broken = 0;
     last = y;
     breadths.push_back(look.breadth(y, x));
+    centres.push_back(look.centre(y, x));
   }
   const int length = std::abs(last - start) + 1;
   if (breadths.empty()) return none;
@@ -76,31 +94,45 @@ End end_of(const Looker& look, int x, int start, int step, double marker_width, 
   // A bar is thinner than the marker, and straight: it stays so over most of its length.
   if (thin > std::max(2.0, 0.55 * marker_width)) return none;
   const auto wide = [&](int b) { return b >= 1.5 * thin + 2.5; };
-  // The cap: the wide rows at the end. Its middle is the value.
-  int cap = 0;
-  while (cap < static_cast<int>(breadths.size()) && wide(breadths[breadths.size() - 1 - cap]))
-    ++cap;
-  if (cap > 0 && cap <= 3 * thin + 2 && (cap < length || breadths.back() < marker_width)) {
+  // The cap: the wide rows at the end, but for a faint one at its edge. Its middle is the value.
+  const int n = static_cast<int>(breadths.size());
+  const int faint = n > 1 && !wide(breadths[n - 1]) && wide(breadths[n - 2]) ? 1 : 0;
+  int cap = 0, widest = 0;
+  while (cap + faint < n && wide(breadths[n - 1 - faint - cap]))
+    widest = std::max(widest, breadths[n - 1 - faint - cap++]);
+  if (cap > 0 && cap <= 3 * thin + 2 && (cap < length || widest < marker_width)) {
     double mass = 0, moment = 0;
-    for (int i = -1; i <= cap; ++i) {
-      const int row = last - step * (cap - 1) + step * i;
+    for (int i = -1; i <= cap + faint; ++i) {
+      const int row = last - step * (cap + faint - 1) + step * i;
       double across = 0;
       for (int dx = thin + 1; dx <= thin + 2; ++dx)
         across += look.coverage(row, x - dx) + look.coverage(row, x + dx);
       mass += across;
       moment += across * (row + 0.5);
     }
-    if (mass > 0) return {moment / mass, breadths.back() / 2.0, thin};
+    if (mass > 0) return {moment / mass, widest / 2.0, cap, thin};
   }
   // A marker's own shoulder is no bar, nor is a steep line; a line does not end in paper.
-  const double lean = std::abs(look.centre(last, x) - look.centre(start, x));
-  if (lean > (with_line ? 0.6 : 1.2)) return none;
+  if (lean_of(centres) > (with_line ? 0.6 : 1.2)) return none;
   if (with_line && (length < 6 || look.breadth(last + 2 * step, x) > 0)) return none;
   if (length < 0.12 * marker_width + 2) return none;
   const double at_last = std::min(1.0, look.on_bar(last, x)),
                beyond = std::min(1.0, look.on_bar(last + step, x));
   const double edge = at_last < 0.9 ? at_last - 1 : beyond;  // how far the ink reaches past the row
-  return {(step > 0 ? last + 1 : last) + step * edge, thin / 2.0, thin};
+  return {(step > 0 ? last + 1 : last) + step * edge, thin / 2.0, 0, thin};
+}
+
+/// Nothing is known under the ink of a bar from its marker to this end: the stroke and the cap, and
+/// `round` pixels round them.
+void hide(InkMap& map, const ErrorBar& bar, cv::Point2d from, double end, double round) {
+  const auto hide_box = [&](double half_width, double top, double bottom) {
+    const cv::Rect box(cv::Point(cvFloor(from.x - half_width), cvFloor(top)),
+                       cv::Point(cvCeil(from.x + half_width), cvCeil(bottom)));
+    const cv::Rect there = box & cv::Rect({0, 0}, map.unknown.size());
+    if (!there.empty()) map.unknown(there).setTo(255);
+  };
+  hide_box(bar.thickness / 2.0 + round, std::min(from.y, end), std::max(from.y, end));
+  hide_box(bar.half_cap + round, end - bar.cap / 2.0 - round, end + bar.cap / 2.0 + round);
 }
 
 }  // namespace
@@ -115,7 +147,7 @@ ErrorBar find_error_bar(const InkMap& map, const Template& marker, cv::Point2d a
   const auto lower = end_of(look, x, below, +1, marker.box.width, with_line, thickness);
   const auto upper = end_of(look, x, above, -1, marker.box.width, with_line, thickness);
   return {lower.row, upper.row, std::max(lower.half_cap, upper.half_cap),
-          std::max(lower.thickness, upper.thickness)};
+          std::max(lower.cap, upper.cap), std::max(lower.thickness, upper.thickness)};
 }
 
 std::vector<ErrorBar> find_error_bars(const InkMap& map, const Template& marker,
@@ -137,39 +169,35 @@ std::vector<ErrorBar> find_error_bars(const InkMap& map, const Template& marker,
 void drop_on_bars(const InkMap& map, const Template& marker, std::vector<Marker>& markers,
                   bool with_line) {
   const double little = little_alike(markers);
-  struct Stretch {
-    double x, top, bottom;
-  };
-  std::vector<Stretch> bars;
-  for (const auto& one : markers) {
-    if (one.fit.score < little) continue;
-    const auto at = one.fit.origin + marker.reference;
-    const auto bar = find_error_bar(map, marker, at, with_line);
-    bars.push_back(
-        {at.x, std::isnan(bar.upper) ? at.y : bar.upper, std::isnan(bar.lower) ? at.y : bar.lower});
-  }
   const double aside = marker.box.width / 4, beyond = marker.box.height / 2;
-  std::erase_if(markers, [&](const Marker& one) {
-    const auto at = one.fit.origin + marker.reference;
-    return one.fit.score < little && std::any_of(bars.begin(), bars.end(), [&](const Stretch& bar) {
-             return std::abs(at.x - bar.x) < aside && at.y > bar.top - beyond &&
-                    at.y < bar.bottom + beyond;
-           });
-  });
+  std::vector<ErrorBar> bars;
+  for (const auto& one : markers)
+    bars.push_back(find_error_bar(map, marker, one.fit.origin + marker.reference, with_line));
+  const auto is_of_bar = [&](const Marker& one, const Marker& other, const ErrorBar& bar) {
+    if (!(one.fit.score < other.fit.score)) return false;
+    const auto at = one.fit.origin + marker.reference, from = other.fit.origin + marker.reference;
+    const double end = at.y < from.y ? bar.upper : bar.lower;
+    if (std::abs(at.x - from.x) > aside || std::isnan(end)) return false;
+    if (std::abs(at.y - from.y) > std::abs(end - from.y) + beyond) return false;
+    if (one.fit.score < little) return true;
+    // Not all that fits is the bar's: two markers of one abscissa.
+    InkMap rest{map.coverage, map.unknown.clone()};
+    hide(rest, bar, from, end, 1);
+    return !is_marker(fit(marker, rest, one.fit.origin));
+  };
+  std::vector<Marker> kept;
+  for (const auto& one : markers) {
+    bool dropped = false;
+    for (std::size_t i = 0; i < markers.size() && !dropped; ++i)
+      dropped = is_of_bar(one, markers[i], bars[i]);
+    if (!dropped) kept.push_back(one);
+  }
+  markers = std::move(kept);
 }
 
 void cover(InkMap& map, const ErrorBar& bar, cv::Point2d at) {
-  for (const double end : {bar.lower, bar.upper}) {
-    if (std::isnan(end)) continue;
-    const auto hide = [&](double half_width, double from, double to) {
-      const cv::Rect box(cv::Point(cvFloor(at.x - half_width), cvFloor(std::min(from, to))),
-                         cv::Point(cvCeil(at.x + half_width), cvCeil(std::max(from, to))));
-      const cv::Rect there = box & cv::Rect({0, 0}, map.unknown.size());
-      if (!there.empty()) map.unknown(there).setTo(255);
-    };
-    hide(std::min(bar.half_cap, 3.0) + 1.5, at.y, end);
-    hide(bar.half_cap + 2, end - 3, end + 3);
-  }
+  for (const double end : {bar.lower, bar.upper})
+    if (!std::isnan(end)) hide(map, bar, at, end, 2);
 }
 
 }  // namespace bedscope::digitise

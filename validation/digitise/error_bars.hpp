@@ -10,6 +10,7 @@ struct ErrorBar {
   double lower = 0,
          upper = 0;     ///< rows of the ends (lower: the larger row); NaN where none is seen
   double half_cap = 0;  ///< half the width of the caps; of the bar where there are none [px]
+  int cap = 0;          ///< rows of the thicker cap; 0 where there is none [px]
   int thickness = 0;    ///< [px]; 0 where none is seen
 };
 

@@ -58,6 +58,29 @@ double breadth_of(const cv::Mat& ink) {
   return std::sqrt((half - apart) / (half + apart));
 }
 
+/// Whether a template looks more like the shape that a series names than like those of the others.
+bool looks_as_asked(const Template& marker, const MarkerQuery& query) {
+  if (!query.sample.empty() || !query.shape) return true;
+  const auto seen = recognise(trimmed(marker, query.among).ink, query.among).first;
+  const auto asked = candidates(query.shape);
+  return std::any_of(asked.begin(), asked.end(), [&](const Shape& shape) {
+    return shape.outline == seen.outline && shape.fill == seen.fill;
+  });
+}
+
+/// Whether a template lies as a marker does in its three best places, half as well at least and as
+/// much better than beside: crossings of bars and lines do not.
+bool fits_well(const InkMap& map, const Template& marker) {
+  constexpr double whole = 0.4 * 0.5;  // of a perfect fit that is half as good beside
+  std::vector<double> worths;
+  const auto found = find_markers(map, {marker});
+  for (const auto& one : found[0])
+    worths.push_back((one.fit.score - least_score) * distinct(marker, map, one.fit));
+  if (worths.empty()) return false;
+  std::sort(worths.rbegin(), worths.rend());
+  return worths[std::min<std::size_t>(2, worths.size() - 1)] > whole / 2;
+}
+
 }  // namespace
 
 std::optional<Template> learn(const InkMap& map, const MarkerQuery& query) {
@@ -74,7 +97,11 @@ std::optional<Template> learn(const InkMap& map, const MarkerQuery& query) {
   cv::compare(map.coverage, 0.28, mask, cv::CMP_GT);
   const double all = cv::sum(map.coverage)[0];
   constexpr double much = 0.35;  // of the ink: what holds as much can only be the markers
-  const auto pieces = pieces_of(mask, map);
+  auto pieces = pieces_of(mask, map);
+  if (query.with_line) {
+    const double stroke = std::min(stroke_width(map.coverage), line_width(map.coverage));
+    std::erase_if(pieces, [&](const Piece& piece) { return piece.breadth < 2 * stroke; });
+  }
   const auto alone = best_group(pieces, map.coverage, query.among, shapes, 0.8);
   if (alone && (alone->ink > much * all ||
                 (alone->pieces.size() >= 3 && (query.shape || alone->resemblance > 0.88))))
@@ -86,7 +113,7 @@ std::optional<Template> learn(const InkMap& map, const MarkerQuery& query) {
   if (filled && recognise(filled->ink, {filled->shape}).second > 0.94 &&
       worth(map, *filled) > 0.2 * much * all)
     return filled;
-  const auto drawn = search_drawn(map, query.shape ? shapes : common_shapes());
+  const auto drawn = search_drawn(map, query.shape ? shapes : common_shapes(), query.rivals);
   if (filled && drawn) return worth(map, *filled) > worth(map, *drawn) ? filled : drawn;
   if (filled) return filled;
   if (drawn) return drawn;
@@ -97,6 +124,32 @@ std::optional<Template> learn(const InkMap& map, const MarkerQuery& query) {
     return template_of(*group, map);
   }
   return std::nullopt;
+}
+
+std::vector<std::optional<Template>> learn_all(const InkMap& map,
+                                               const std::vector<MarkerQuery>& queries) {
+  std::vector<std::optional<Template>> found(queries.size());
+  std::vector<bool> sure(queries.size());
+  InkMap left{map.coverage.clone(), map.unknown.clone()};
+  for (bool again = true; again;) {
+    again = false;
+    std::vector<Template> own;
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+      if (sure[i]) continue;
+      const auto marker = learn(left, queries[i]);
+      if (!marker) continue;
+      found[i] = marker;
+      sure[i] =
+          queries.size() == 1 || (looks_as_asked(*marker, queries[i]) && fits_well(left, *marker));
+      if (sure[i]) own.push_back(*marker);
+    }
+    if (own.empty() || std::count(sure.begin(), sure.end(), false) == 0) break;
+    const auto taken = find_markers(left, own);
+    for (std::size_t t = 0; t < own.size(); ++t)
+      for (const auto& one : taken[t]) take_away(left, own[t], one.fit.origin);
+    again = true;
+  }
+  return found;
 }
 
 std::optional<Template> markers_on_line(const InkMap& map) {

@@ -103,32 +103,52 @@ std::optional<cv::Rect> sample_beside(const cv::Mat& mask, const cv::Rect& text,
   return sample + strip.tl();
 }
 
+/// The largest share of inked pixels between two rows that a column within `slack` of `x` has.
+double inked(const cv::Mat& ink, double x, double top, double bottom, double slack) {
+  const cv::Rect there = cv::Rect(cv::Point(cvFloor(x - slack), cvFloor(top)),
+                                  cv::Point(cvCeil(x + slack), cvCeil(bottom))) &
+                         cv::Rect({0, 0}, ink.size());
+  if (there.empty()) return 0;
+  const cv::Mat mask = (ink(there) > 0.3F) / 255;
+  cv::Mat sums;
+  cv::reduce(mask, sums, 0, cv::REDUCE_SUM, CV_32S);
+  double most = 0;
+  cv::minMaxLoc(sums, nullptr, &most);
+  return most / there.height;
+}
+
 }  // namespace
 
-std::vector<cv::Rect> find_boxes(const Rules& rules, const cv::Rect& area) {
+std::vector<cv::Rect> find_boxes(const Rules& rules, const cv::Mat& ink, const cv::Rect& area) {
   std::vector<cv::Rect> boxes;
   const double slack = std::max(4.0, 0.02 * std::min(area.width, area.height));
   const auto near = [&](double a, double b) { return std::abs(a - b) < slack; };
-  const auto joins = [&](const Rule& rule, double low, double high) {
-    return rule.from < low + slack && rule.to > high - slack && rule.from > low - 2 * slack &&
-           rule.to < high + 2 * slack;
+  // Two lines side by side that end alike, and ink that closes the box at both ends. This may go on
+  // at one of them: a grid line, close to the box.
+  const auto find = [&](const std::vector<Rule>& along, const cv::Mat& seen, double wide,
+                        double high, bool is_upright) {
+    for (const auto& first : along)
+      for (const auto& second : along) {
+        const double apart = second.at - first.at;
+        if (apart < 0.03 * high || apart > 0.75 * high) continue;
+        if (!near(first.from, second.from) || !near(first.to, second.to)) continue;
+        if (first.length() < 0.06 * wide || first.length() > 0.75 * wide) continue;
+        const double from = (first.from + second.from) / 2, to = (first.to + second.to) / 2;
+        const bool closed = inked(seen, from, first.at, second.at, slack) > 0.9 &&
+                            inked(seen, to, first.at, second.at, slack) > 0.9;
+        const auto goes_on = [&](double at) {
+          return inked(seen, at, first.at - 2 * slack, first.at - 2, slack) > 0.9 &&
+                 inked(seen, at, second.at + 2, second.at + 2 * slack, slack) > 0.9;
+        };
+        if (!closed || (goes_on(from) && goes_on(to))) continue;
+        cv::Rect box(cvFloor(first.from - 3), cvFloor(first.at - 3), cvCeil(first.length() + 6),
+                     cvCeil(apart + 6));
+        if (is_upright) box = cv::Rect(box.y, box.x, box.height, box.width);
+        if ((box & area).area() > 0.9 * box.area()) boxes.push_back(box & area);
+      }
   };
-  for (const auto& top : rules.rows)
-    for (const auto& bottom : rules.rows) {
-      if (bottom.at - top.at < 0.03 * area.height || bottom.at - top.at > 0.75 * area.height)
-        continue;
-      if (!near(top.from, bottom.from) || !near(top.to, bottom.to)) continue;
-      if (top.length() < 0.06 * area.width || top.length() > 0.75 * area.width) continue;
-      const auto side = [&](double x) {
-        return std::any_of(rules.columns.begin(), rules.columns.end(), [&](const Rule& rule) {
-          return near(rule.at, x) && joins(rule, top.at, bottom.at);
-        });
-      };
-      if (!side(top.from) || !side(top.to)) continue;
-      const cv::Rect box(cvFloor(top.from - 3), cvFloor(top.at - 3), cvCeil(top.length() + 6),
-                         cvCeil(bottom.at - top.at + 6));
-      if ((box & area).area() > 0.9 * box.area()) boxes.push_back(box & area);
-    }
+  find(rules.rows, ink, area.width, area.height, false);
+  find(rules.columns, ink.t(), area.height, area.width, true);
   // Boxes of one size, apart from one another, are markers.
   const auto all = boxes;
   std::erase_if(boxes, [&](const cv::Rect& box) {

@@ -10,7 +10,7 @@
 namespace bedscope::digitise {
 
 /// Boxes drawn with lines that end at their corners (grid lines go on): frames of legends, insets.
-std::vector<cv::Rect> find_boxes(const Rules& rules, const cv::Rect& area);
+std::vector<cv::Rect> find_boxes(const Rules& rules, const cv::Mat& ink, const cv::Rect& area);
 
 /// Rows of text with a sample at its left or right end: something small, at the height of the text,
 /// touching nothing else. `text`: coverage by dark neutral ink, `ink`: by any ink.

@@ -47,34 +47,12 @@ struct Candidate {
 
 double worth(const Fit& fit) { return fit.score * std::sqrt(fit.known); }
 
-/// Ink in all directions. One eighth may lack it where the whole fits well, half way from the
-/// poorest marker to a perfect one: under the edge of another curve, or at the end of a line whose
-/// other markers, and so the template, have it on both sides. So it is with what is not known.
-bool good(const Fit& fit) {
-  constexpr double well = (least_score + 1) / 2;
-  const double known = fit.score > well ? least_known_well : least_known;
-  return fit.score > least_score && fit.known > known &&
-         (fit.least_part > least_ink || (fit.next_part > least_ink && fit.score > well));
-}
-
-/// What the template explains is not to be explained again.
-void cover(InkMap& map, const Template& marker, cv::Point2d origin) {
-  const cv::Size size = marker.ink.size();
-  const cv::Point middle(cvFloor(origin.x), cvFloor(origin.y));
-  const cv::Rect wanted(middle.x - size.width / 2, middle.y - size.height / 2, size.width,
-                        size.height);
-  const cv::Rect there = wanted & cv::Rect(0, 0, map.coverage.cols, map.coverage.rows);
-  if (there.empty()) return;
-  const cv::Mat ink = laid(marker, origin, middle)(there - wanted.tl());
-  map.unknown(there).setTo(255, ink > 0.15F);
-  map.coverage(there).setTo(0, ink > 0.15F);
-}
-
 /// The good fits near `places` of template `which`.
 void add_candidates(std::vector<Candidate>& candidates, const InkMap& map, const Template& marker,
                     std::size_t which, const std::vector<cv::Point2d>& places) {
   for (const auto place : places)
-    if (const auto here = fit(marker, map, place); good(here)) candidates.push_back({which, here});
+    if (const auto here = fit(marker, map, place); is_marker(here))
+      candidates.push_back({which, here});
 }
 
 std::vector<std::vector<Marker>> best_first(const InkMap& map,
@@ -94,19 +72,37 @@ std::vector<std::vector<Marker>> best_first(const InkMap& map,
     if (taken) continue;
     // Again on what is left; alone, nothing has changed for it.
     const auto again = fit(marker, left, candidate.fit.origin);
-    if (!good(again) || cv::norm(again.origin - candidate.fit.origin) > 0.3 * size) continue;
+    if (!is_marker(again) || cv::norm(again.origin - candidate.fit.origin) > 0.3 * size) continue;
     Marker one;
     one.fit = again;
     one.at = again.origin + marker.reference;
     for (int axis = 0; axis < 2; ++axis)
       one.u[axis] = std::hypot(again.u[axis], marker.reference_u[axis]);
     found[candidate.which].push_back(one);
-    cover(left, marker, again.origin);
+    take_away(left, marker, again.origin);
   }
   return found;
 }
 
 }  // namespace
+
+void take_away(InkMap& map, const Template& marker, cv::Point2d origin) {
+  const cv::Size size = marker.ink.size();
+  const cv::Point middle(cvFloor(origin.x), cvFloor(origin.y));
+  const cv::Rect wanted(middle.x - size.width / 2, middle.y - size.height / 2, size.width,
+                        size.height);
+  const cv::Rect there = wanted & cv::Rect(0, 0, map.coverage.cols, map.coverage.rows);
+  if (there.empty()) return;
+  const cv::Mat ink = laid(marker, origin, middle)(there - wanted.tl());
+  map.unknown(there).setTo(255, ink > 0.15F);
+  map.coverage(there).setTo(0, ink > 0.15F);
+}
+
+bool is_marker(const Fit& fit) {
+  const double known = fit.score > well ? least_known_well : least_known;
+  return fit.score > least_score && fit.known > known &&
+         (fit.least_part > least_ink || (fit.next_part > least_ink && fit.score > well));
+}
 
 std::vector<std::vector<Marker>> find_markers(const InkMap& map,
                                               const std::vector<Template>& templates) {

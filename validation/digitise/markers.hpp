@@ -8,7 +8,8 @@
 
 namespace bedscope::digitise {
 
-inline constexpr double least_score = 0.6;  ///< of a fit that is taken for a marker
+inline constexpr double least_score = 0.6;             ///< of a fit that is taken for a marker
+inline constexpr double well = (least_score + 1) / 2;  ///< half way from it to a perfect one
 
 /// What to look for in one ink.
 struct MarkerQuery {
@@ -17,6 +18,8 @@ struct MarkerQuery {
   std::optional<cv::Point2d> reference;  ///< its reference point in the sample [px]
   /// The shapes that this ink may show: where it has several series and each names its own, these.
   std::vector<Shape> among = candidates(std::nullopt);
+  std::vector<Shape> rivals;  ///< those that the other series of this ink name
+  bool with_line = false;     ///< the ink draws a line too, whose dots and dashes are no markers
 };
 
 struct Marker {
@@ -25,10 +28,25 @@ struct Marker {
   double u[2] = {0, 0};  ///< [px]
 };
 
+/// Takes a marker's ink out of a map: what it explains is not to be explained again.
+void take_away(InkMap& map, const Template& marker, cv::Point2d origin);
+
+/// Whether a fit is good enough for a marker: ink in all directions. One eighth may lack it where
+/// the whole fits well: under the edge of
+/// another curve, or at the end of a line whose other markers, and so the template, have it on both
+/// sides. So it is with what is not known.
+bool is_marker(const Fit& fit);
+
 /// The template that the ink shows for a query: from the user's sample; from markers that stand
 /// alone; from filled markers on thinner lines; else drawn shapes of all sizes are tried.
 /// Nothing where none of these is found.
 std::optional<Template> learn(const InkMap& map, const MarkerQuery& query);
+
+/// The same of several series of one ink. A template that looks more like the shape of another
+/// series was learned from that one's markers: again without the markers of those that do look like
+/// their own.
+std::vector<std::optional<Template>> learn_all(const InkMap& map,
+                                               const std::vector<MarkerQuery>& queries);
 
 /// The template of markers that nobody asked for on a line of this ink: five or more of them, that
 /// hold more than a twentieth of the ink and fit well. Dots and dashes of the line are no markers.

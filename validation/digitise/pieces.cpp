@@ -20,6 +20,14 @@ bool alike(const Piece& a, const Piece& b) {
          near(a.ink, b.ink, 0.2 * a.ink + 2);
 }
 
+/// The shorter side of a rectangle that is spread as the ink of an image.
+double breadth_of(const cv::Mat& ink) {
+  const auto m = cv::moments(ink);
+  const double half = (m.mu20 + m.mu02) / 2;
+  const double apart = std::hypot((m.mu20 - m.mu02) / 2, m.mu11);
+  return std::sqrt(12 * std::max(0.0, half - apart) / m.m00);
+}
+
 /// The patch of a piece, its box in the middle.
 cv::Mat patch_of(const cv::Mat& coverage, const Piece& piece) {
   constexpr int margin = 1;
@@ -61,7 +69,9 @@ std::vector<Piece> pieces_of(const cv::Mat& mask, const InkMap& map) {
         std::min(box.width, box.height) < 4 || std::max(box.width, box.height) > largest ||
         std::max(box.width, box.height) > 2.0 * std::min(box.width, box.height))
       continue;
-    pieces.push_back({box, stats.at<int>(i, cv::CC_STAT_AREA), ink[i]});
+    cv::Mat own = cv::Mat::zeros(box.size(), CV_32F);
+    map.coverage(box).copyTo(own, labels(box) == i);
+    pieces.push_back({box, stats.at<int>(i, cv::CC_STAT_AREA), ink[i], breadth_of(own)});
   }
   return pieces;
 }

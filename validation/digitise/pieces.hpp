@@ -13,6 +13,7 @@ struct Piece {
   cv::Rect box;
   int area = 0;
   double ink = 0;
+  double breadth = 0;  ///< across its longest direction, of a rectangle with its spread [px]
 };
 
 /// Pieces of one size and shape.

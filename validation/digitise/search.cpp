@@ -69,19 +69,6 @@ std::vector<std::pair<double, cv::Point2d>> peaks(const cv::Mat& coverage, const
   return found;
 }
 
-/// Programs draw markers as wide as high, but for thin diamonds and flat triangles (an equilateral
-/// one is 0.87 as high as wide); a small one is off by its whole pixels. A sliver of a bar or of a
-/// line, that would explain more ink than a marker, is none.
-bool is_proportioned(Outline outline, cv::Size2d box) {
-  constexpr double rounding = 1.18;
-  const bool lying = outline == Outline::triangle_left || outline == Outline::triangle_right;
-  double narrowest = 1, widest = 1;
-  if (outline == Outline::diamond) narrowest = 0.6;
-  if (is_triangle(outline)) (lying ? narrowest : widest) = lying ? 0.87 : 1 / 0.87;
-  const double ratio = box.width / box.height;
-  return ratio > narrowest / rounding && ratio < widest * rounding;
-}
-
 /// The thickest stroke of a marker as a share of its width. An open one has a hole of three tenths
 /// of its inscribed circle or more; one without would lie as well as a filled one.
 double thickest_stroke(const Shape& shape) {
@@ -220,7 +207,7 @@ std::vector<Guess> guesses_of_holes(const InkMap& map, const std::vector<Shape>&
     guess.box = cv::Size2d(widths[widths.size() / 2] + 2 * guess.stroke,
                            heights[heights.size() / 2] + 2 * guess.stroke);
     for (const auto& shape : shapes) {
-      if (shape.fill != Fill::open || !is_proportioned(shape.outline, guess.box)) continue;
+      if (shape.fill != Fill::open || out_of_proportion(shape.outline, guess.box) > 1) continue;
       guess.shape = shape;
       guesses.push_back(guess);
     }
@@ -311,7 +298,7 @@ Guess refined(const Sizes::Level& level, Guess guess) {
             trial.stroke *= 1 + thick * way;
             if (trial.stroke < 0.5 ||
                 trial.stroke > thickest_stroke(guess.shape) * trial.box.width ||
-                !is_proportioned(trial.shape.outline, trial.box))
+                out_of_proportion(trial.shape.outline, trial.box) > 1)
               continue;
             if (const double now = resemblance(level, trial, blurred); now > most + 2e-3) {
               most = now;
@@ -326,8 +313,19 @@ Guess refined(const Sizes::Level& level, Guess guess) {
   return guess;
 }
 
-/// The three guesses of each shape that explain most ink a marker, among those that resemble.
-std::vector<Guess> best_three_of_each(Sizes& sizes, std::vector<Guess> guesses) {
+/// The guesses of each shape that are worth refining: the one that correlated best, and the three
+/// that explain most ink a marker, among those that resemble.
+std::vector<Guess> best_few_of_each(Sizes& sizes, std::vector<Guess> guesses) {
+  std::map<std::pair<Outline, Fill>, int> had;
+  const auto which = [](const Guess& guess) {
+    return std::pair(guess.shape.outline, guess.shape.fill);
+  };
+  std::vector<Guess> best;
+  std::erase_if(guesses, [&](const Guess& guess) {
+    if (had[which(guess)]++ > 0 || guess.worth <= 0) return false;
+    best.push_back(guess);
+    return true;
+  });
   for (auto& guess : guesses) {
     const auto& level = sizes.level_for(guess);
     guess.worth = resemblance(level, scaled(guess, level.scale), true);
@@ -339,42 +337,88 @@ std::vector<Guess> best_three_of_each(Sizes& sizes, std::vector<Guess> guesses) 
   }
   std::stable_sort(guesses.begin(), guesses.end(),
                    [](const auto& a, const auto& b) { return a.worth > b.worth; });
-  std::map<std::pair<Outline, Fill>, int> had;
-  std::erase_if(guesses, [&](const Guess& guess) {
-    return ++had[{guess.shape.outline, guess.shape.fill}] > 3;
-  });
-  return guesses;
+  had.clear();
+  for (const auto& guess : guesses)
+    if (++had[which(guess)] <= 3) best.push_back(guess);
+  return best;
 }
-}  // namespace
 
-std::optional<Template> search_drawn(const InkMap& map, const std::vector<Shape>& shapes) {
+/// A guess at its best size, and its markers [px of its level].
+struct Refined {
+  Guess guess;
+  double scale = 1, ink = 0;  ///< ink: of one marker, in pixels of the map
+  std::vector<Marker> found;
+  std::vector<double> distinct;
+};
+
+std::vector<Refined> refine_all(const InkMap& map, const std::vector<Shape>& shapes) {
   Sizes sizes(map);
   // Where filled markers hold most ink, that of the ridges is the line's.
   const double stroke = std::min(stroke_width(map.coverage), line_width(map.coverage));
   auto guesses = best_of_each(rough_guesses(map, shapes, stroke));
   for (auto& guess : guesses_of_holes(map, shapes)) guesses.push_back(guess);
-  double most = 0;
-  std::optional<Guess> best;
-  for (const auto& guess : best_three_of_each(sizes, guesses)) {
+  std::vector<Refined> all;
+  for (const auto& guess : best_few_of_each(sizes, guesses)) {
     const auto& level = sizes.level_for(guess);
     const auto finer = refined(level, scaled(guess, level.scale));
     if (finer.worth < 0.55) continue;
     const auto marker = drawn_template(finer);
-    const double ink = marker.ink.dot(marker.ink) / (level.scale * level.scale);
+    Refined one{scaled(finer, 1 / level.scale),
+                level.scale,
+                marker.ink.dot(marker.ink) / (level.scale * level.scale),
+                {},
+                {}};
+    for (const auto& found : markers_near(level.sharp, marker, finer.places)) {
+      if (found.fit.score < 0.6 || found.fit.known < 0.8 || found.fit.least_part < 0.6) continue;
+      one.found.push_back(found);
+      one.distinct.push_back(distinct(marker, level.sharp, found.fit));
+    }
+    all.push_back(one);
+  }
+  return all;
+}
+
+/// Whether a rival of another shape lies better where a guess has its i-th marker.
+bool is_anothers(const Refined& one, std::size_t i, const std::vector<Refined>& rivals) {
+  const cv::Point2d at = one.found[i].fit.origin / one.scale;
+  const double near = std::max(one.guess.box.width, one.guess.box.height) / 4;
+  return std::any_of(rivals.begin(), rivals.end(), [&](const Refined& rival) {
+    return rival.guess.shape.outline != one.guess.shape.outline &&
+           std::any_of(rival.found.begin(), rival.found.end(), [&](const Marker& other) {
+             return other.fit.score > one.found[i].fit.score &&
+                    cv::norm(other.fit.origin / rival.scale - at) < near;
+           });
+  });
+}
+
+}  // namespace
+
+std::optional<Template> search_drawn(const InkMap& map, const std::vector<Shape>& shapes,
+                                     const std::vector<Shape>& rivals) {
+  const auto all = refine_all(map, shapes);
+  const auto others = rivals.empty() ? all : refine_all(map, rivals);
+  double most = 0;
+  const Refined* best = nullptr;
+  for (const auto& one : all) {
     double worth = 0;
     int good = 0;
-    for (const auto& one : markers_near(level.sharp, marker, finer.places)) {
-      if (one.fit.score < 0.6 || one.fit.known < 0.8 || one.fit.least_part < 0.6) continue;
-      worth += ink * (one.fit.score - least_score) * distinct(marker, level.sharp, one.fit);
+    for (std::size_t i = 0; i < one.found.size(); ++i) {
+      if (!rivals.empty() && is_anothers(one, i, others)) continue;
+      worth += one.ink * (one.found[i].fit.score - least_score) * one.distinct[i];
       ++good;
     }
     if (good < 2 || worth <= most) continue;
     most = worth;
-    best = scaled(finer, 1 / level.scale);
+    best = &one;
   }
   if (!best) return std::nullopt;
-  const auto marker = make_template(drawn_template(*best).ink, best->shape);
-  const auto seen = typical(map, marker, best->places);
-  return seen ? trimmed(*seen, {best->shape}) : marker;
+  const auto& guess = best->guess;
+  const auto marker = make_template(drawn_template(guess).ink, guess.shape);
+  std::vector<cv::Point2d> places;
+  for (std::size_t i = 0; i < best->found.size(); ++i)
+    if (!rivals.empty() && !is_anothers(*best, i, others))
+      places.push_back(best->found[i].fit.origin / best->scale);
+  const auto seen = typical(map, marker, rivals.empty() ? guess.places : places);
+  return seen ? trimmed(*seen, {guess.shape}) : marker;
 }
 }  // namespace bedscope::digitise

@@ -10,7 +10,9 @@
 namespace bedscope::digitise {
 
 /// Of drawn shapes of all sizes the one that explains most ink where it lies well. A smaller one of
-/// the same kind would lie as well, but explains less.
-std::optional<Template> search_drawn(const InkMap& map, const std::vector<Shape>& shapes);
+/// the same kind would lie as well, but explains less. Of `shapes`; where the ink shows some of
+/// `rivals` too, places where one of these lies better do not count.
+std::optional<Template> search_drawn(const InkMap& map, const std::vector<Shape>& shapes,
+                                     const std::vector<Shape>& rivals = {});
 
 }  // namespace bedscope::digitise

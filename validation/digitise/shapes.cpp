@@ -176,6 +176,16 @@ bool is_strokes(Outline outline) {
          outline == Outline::cross;
 }
 
+double out_of_proportion(Outline outline, cv::Size2d box) {
+  constexpr double rounding = 1.18;
+  const bool lying = outline == Outline::triangle_left || outline == Outline::triangle_right;
+  double narrowest = 1, widest = 1;
+  if (outline == Outline::diamond) narrowest = 0.6;
+  if (is_triangle(outline)) (lying ? narrowest : widest) = lying ? 0.87 : 1 / 0.87;
+  const double ratio = box.width / box.height;
+  return std::max({1.0, narrowest / rounding / ratio, ratio / (widest * rounding)});
+}
+
 cv::Mat draw_shape(const Shape& shape, cv::Size2d box, double stroke, cv::Size size,
                    cv::Point2d off) {
   cv::Mat canvas = cv::Mat::zeros(size.height * fine, size.width * fine, CV_8U);
@@ -232,18 +242,18 @@ Reference reference_of(const Shape& shape, cv::Size2d box, double stroke) {
   const bool standing = outline == Outline::triangle || outline == Outline::triangle_down;
   const double width = standing ? box.width : box.height;
   const double height = standing ? box.height : box.width;
-  // By how much the middle of the ink lies off that of the path, towards the tip: half of what the
-  // stroke adds at the tip, 1 / sin(26.57 degrees), less what it adds at the base; uniform
-  // between the extremes.
+  // By how much the middle of the box lies off that of the path, towards the tip: half of how much
+  // farther off the path the outer edges of the stroke meet at the tip, 1 / sin(26.57 degrees) of
+  // half its thickness, than it reaches at the base.
   constexpr double mitre = 0.31;
-  double least = 0, most = mitre * stroke / height;
-  if (shape.fill == Fill::filled) {
-    least = -mitre / 12;
-    most = mitre / 6;
-  }
+  double towards_base = mitre * stroke / height;
   Reference reference;
-  double towards_base = (least + most) / 2;
-  reference.uncertain = (most - least) / std::sqrt(12.0);
+  reference.uncertain = 0.2 * towards_base;  // as the thickness
+  if (shape.fill == Fill::filled) {          // uniform between the extremes
+    constexpr double least = -mitre / 12, most = mitre / 4;
+    towards_base = (least + most) / 2;
+    reference.uncertain = (most - least) / std::sqrt(12.0);
+  }
   // An equilateral triangle is 0.87 as high as wide; one drawn as high as wide, on whole pixels,
   // may lack two pixels of twenty.
   if (height < 0.9 * width) {

@@ -43,6 +43,12 @@ std::vector<std::string_view> outline_names();
 bool is_triangle(Outline outline);
 bool is_strokes(Outline outline);  ///< plus, x, asterisk: no inside
 
+/// By how much the sides of a box are out of the proportion of an outline, 1 where they are not.
+/// Programs draw markers as wide as high, but for thin diamonds and flat triangles (an equilateral
+/// one is 0.87 as high as wide); a small one is off by its whole pixels, up to 1.18. A sliver of a
+/// bar or of a line, that would explain more ink than a marker, is none.
+double out_of_proportion(Outline outline, cv::Size2d box);
+
 /// The outline (no cross) scaled to a width and height in pixels, filled or as a stroke whose outer
 /// edge touches the box, drawn with anti-aliasing `off` the middle of an image of `size` pixels.
 /// Returns coverage 0 to 1, CV_32F.
@@ -52,11 +58,12 @@ cv::Mat draw_shape(const Shape& shape, cv::Size2d box, double stroke, cv::Size s
 /// Where the data point is, from the middle of the box of a marker's ink, as a fraction of the
 /// box's width and height (y down), with its standard uncertainty.
 /// Triangles as wide as high (matplotlib, gnuplot) stand with the middle of their path on the
-/// point. Their ink is no measure of that: a mitred stroke reaches 0.31 of its width farther at the
-/// tip than at the base, a round one does not. `stroke` is that of an open marker [px]; of a filled
-/// one it is not seen: between a white edge of a twelfth of the size and one of its own colour of a
-/// sixth (matplotlib's default). Flatter triangles are taken for equilateral ones that stand with
-/// their centre of mass on the point.
+/// point. The box is that whose top is where the sides of the ink meet, whether the stroke's corner
+/// reaches there (mitred) or not (round): 0.31 of the stroke's width farther than at the base.
+/// `stroke` is that of an open marker [px]; of a filled one it is not seen: between a white edge of
+/// a twelfth of the size and one of its own colour of a quarter (matplotlib's and gnuplot's have a
+/// sixth by default, small markers and those of thick lines more). Flatter triangles are taken for
+/// equilateral ones that stand with their centre of mass on the point.
 struct Reference {
   cv::Point2d at;
   double uncertain = 0;

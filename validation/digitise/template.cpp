@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "validation/digitise/stroke.hpp"
+#include "validation/digitise/triangle.hpp"
 
 namespace bedscope::digitise {
 namespace {
@@ -118,7 +119,8 @@ struct Drawn {
   double differs = 0;
 };
 
-/// Absolute differences, so that bars and lines that stick out do not count much.
+/// Absolute differences, so that bars and lines that stick out do not count much; a box out of
+/// proportion counts more, as it is drawn out along a bar.
 Drawn drawn_like(const cv::Mat& ink, Outline outline) {
   cv::Mat filled = ink.clone(), core;
   cv::erode(silhouette(ink), core, cv::Mat::ones(3, 3, CV_8U));
@@ -130,7 +132,7 @@ Drawn drawn_like(const cv::Mat& ink, Outline outline) {
   const auto difference = [&](const std::array<double, 4>& p) {
     const auto drawn =
         draw_shape({outline, Fill::filled}, {p[2], p[3]}, 1, ink.size(), {p[0], p[1]});
-    return cv::norm(filled, drawn, cv::NORM_L1);
+    return cv::norm(filled, drawn, cv::NORM_L1) * out_of_proportion(outline, {p[2], p[3]});
   };
   double least = difference(best);
   for (double step = 0.15 * start.width; step > 0.04; step /= 2)
@@ -360,7 +362,8 @@ Template make_template(const cv::Mat& ink, const Shape& shape) {
   if (is_triangle(shape.outline)) {
     const int quarters = quarter_turns(shape.outline);
     const cv::Mat standing = turned(marker.ink, quarters);
-    const auto box = drawn_like(standing, Outline::triangle).box;
+    const auto drawn = drawn_like(standing, Outline::triangle).box;
+    const auto box = box_by_sides(standing, drawn).value_or(drawn);
     const auto rule =
         reference_of({Outline::triangle, shape.fill}, box.size(), stroke_width(marker.ink));
     const cv::Point2d standing_middle(standing.cols / 2.0, standing.rows / 2.0);

@@ -18,6 +18,7 @@
 #include "validation/digitise/stroke.hpp"
 #include "validation/digitise/table.hpp"
 #include "validation/digitise/template.hpp"
+#include "validation/digitise/triangle.hpp"
 #include "validation/digitise/uncertainty.hpp"
 
 namespace bedscope::digitise {
@@ -196,14 +197,36 @@ TEST(Template, ReferenceOfATriangleIsTheMiddleOfItsBox) {
 }
 
 TEST(Shapes, AnOpenTrianglesPointIsBelowTheMiddleOfItsInkByTheMitre) {
-  // Path 20 wide and high; a mitred stroke of 2 adds 1 at the base, 1 / sin(26.57 deg) at the tip.
-  const double shift = (1 / std::sin(std::atan(0.5)) - 1) / 2;
+  // Path 20 wide and high; the edges of a stroke of 2 meet 1 / sin(26.57 deg) above its tip and
+  // lie 1 below its base.
+  const double shift = (1 / std::sin(std::atan(0.5)) - 1) / 2 / 23.2;
   const auto rule = reference_of({Outline::triangle, Fill::open}, {23.2, 23.2}, 2);
-  const double mitred = shift / 23.2;  // a round stroke: 0
-  EXPECT_NEAR(rule.at.y, mitred / 2, 0.001);
-  EXPECT_NEAR(rule.uncertain, mitred / std::sqrt(12.0), 0.001);
-  EXPECT_NEAR(reference_of({Outline::triangle_down, Fill::open}, {23.2, 23.2}, 2).at.y, -mitred / 2,
+  EXPECT_NEAR(rule.at.y, shift, 0.001);
+  EXPECT_LT(rule.uncertain, shift / 2);
+  EXPECT_NEAR(reference_of({Outline::triangle_down, Fill::open}, {23.2, 23.2}, 2).at.y, -shift,
               0.001);
+}
+
+TEST(Triangle, IsWhereItsSidesMeetThoughABarHidesItsTip) {
+  const cv::Size size(60, 70);
+  const cv::Point2d off(0.3, 8.4);
+  for (const auto fill : {Fill::filled, Fill::open}) {
+    cv::Mat ink = draw_shape({Outline::triangle, fill}, {30, 30}, 3, size, off);
+    const double left = 15.3, top = 28.4;
+    for (const bool barred : {false, true}) {
+      if (barred) {
+        ink.colRange(28, 33).rowRange(2, 40).setTo(1);  // a bar
+        ink.rowRange(46, 49).colRange(0, 30).setTo(1);  // a line from the left
+      }
+      const auto box = box_by_sides(ink, {left + 2, top - 5, 27, 36});
+      ASSERT_TRUE(box);
+      EXPECT_NEAR(box->y, top, 0.4);
+      EXPECT_NEAR(box->br().y, top + 30, 0.15);  // between two pixels
+      EXPECT_NEAR(box->x, left, 0.2);
+      EXPECT_NEAR(box->br().x, left + 30, 0.2);
+    }
+  }
+  EXPECT_FALSE(box_by_sides(cv::Mat::zeros(size, CV_32F), {15, 28, 30, 30}));
 }
 
 TEST(Stroke, WidthIsThatOfMostOfTheLength) {
@@ -266,7 +289,7 @@ TEST(Clear, DashedRulesAreTakenAwayAndMarkersAtOneHeightAreNot) {
   for (int x = 10; x < 480; x += 30)
     map.coverage(cv::Rect(x + (x / 30 % 2) * 10, 60, 14, 14)).setTo(0.9F);
   const double markers = cv::sum(map.coverage.rowRange(0, 140))[0];
-  clear_rules(map);
+  clear_rules(map, true);
   EXPECT_DOUBLE_EQ(cv::sum(map.coverage.rowRange(0, 140))[0], markers);
   EXPECT_EQ(cv::sum(map.coverage.rowRange(140, 200))[0], 0);
 }
