@@ -70,13 +70,17 @@ End end_of(const Looker& look, int x, int start, int step, double marker_width, 
   std::vector<double> centres;
   const double halo = std::max(2.0, marker_width / 4);  // paper that gnuplot leaves round a marker
   int y = start, last = start - step, broken = 0;
+  bool after_paper = false;
   for (; y >= 0 && y < look.map.coverage.rows; y += step) {
     if (look.unknown(y, x)) {
       if (++broken > 12) break;
       continue;
     }
     if (look.on_bar(y, x) < 0.3) {
-      if (breadths.empty() && std::abs(y - start) < halo) continue;
+      if (breadths.empty() && std::abs(y - start) < halo) {
+        after_paper = true;
+        continue;
+      }
       if (broken == 0 || look.on_bar(y + step, x) < 0.3) break;
     }
     broken = 0;
@@ -94,6 +98,10 @@ End end_of(const Looker& look, int x, int start, int step, double marker_width, 
   // A bar is thinner than the marker, and straight: it stays so over most of its length.
   if (thin > std::max(2.0, 0.55 * marker_width)) return none;
   const auto wide = [&](int b) { return b >= 1.5 * thin + 2.5; };
+  // Behind paper a bar begins thin; the edge of another marker does not stay so.
+  if (after_paper)
+    for (std::size_t i = 0; i < 3; ++i)
+      if (i == breadths.size() || breadths[i] > 1.5 * thin + 1) return none;
   // The cap: the wide rows at the end, but for a faint one at its edge. Its middle is the value.
   const int n = static_cast<int>(breadths.size());
   const int faint = n > 1 && !wide(breadths[n - 1]) && wide(breadths[n - 2]) ? 1 : 0;

@@ -7,6 +7,7 @@
 #include "validation/digitise/pieces.hpp"
 #include "validation/digitise/search.hpp"
 #include "validation/digitise/stroke.hpp"
+#include "validation/digitise/typical.hpp"
 
 namespace bedscope::digitise {
 namespace {
@@ -39,6 +40,19 @@ Template without_bars(const Template& marker, const std::vector<Shape>& shapes) 
   const auto bare = trimmed(marker, shapes);
   return marker.box.width > bare.box.width + 2 || marker.box.height > bare.box.height + 2 ? bare
                                                                                           : marker;
+}
+
+/// A marker that the user shows without the line or bar that its box holds too, which may be a
+/// large part of that: bare, then the median of the places that it fits well.
+Template without_what_passes(const InkMap& map, const Template& marker,
+                             const std::vector<Shape>& shapes) {
+  const auto bare = trimmed(marker, shapes, 0.4);
+  std::vector<cv::Point2d> places;
+  const auto found = find_markers(map, {bare});
+  for (const auto& one : found[0])
+    if (one.fit.score > well) places.push_back(one.fit.origin);
+  const auto seen = typical(map, bare, places);
+  return seen ? trimmed(*seen, shapes) : bare;
 }
 
 /// Whether ink goes on beside a marker: a line or a bar leaves it.
@@ -81,18 +95,9 @@ bool fits_well(const InkMap& map, const Template& marker) {
   return worths[std::min<std::size_t>(2, worths.size() - 1)] > whole / 2;
 }
 
-}  // namespace
-
-std::optional<Template> learn(const InkMap& map, const MarkerQuery& query) {
+/// What the ink shows for a query without a sample.
+std::optional<Template> found_template(const InkMap& map, const MarkerQuery& query) {
   const auto shapes = candidates(query.shape);
-  if (!query.sample.empty()) {
-    auto shape = query.shape.value_or(recognise(query.sample, shapes).first);
-    auto marker = make_template(query.sample, shape);
-    if (query.reference)
-      marker.reference =
-          *query.reference - cv::Point2d(query.sample.cols / 2.0, query.sample.rows / 2.0);
-    return marker;
-  }
   cv::Mat mask;
   cv::compare(map.coverage, 0.28, mask, cv::CMP_GT);
   const double all = cv::sum(map.coverage)[0];
@@ -124,6 +129,22 @@ std::optional<Template> learn(const InkMap& map, const MarkerQuery& query) {
     return template_of(*group, map);
   }
   return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Template> learn(const InkMap& map, const MarkerQuery& query) {
+  const auto shapes = candidates(query.shape);
+  if (!query.sample.empty()) {
+    auto shape = query.shape.value_or(recognise(query.sample, shapes).first);
+    auto marker = without_what_passes(map, make_template(query.sample, shape), shapes);
+    if (query.reference)
+      marker.reference =
+          *query.reference - cv::Point2d(query.sample.cols / 2.0, query.sample.rows / 2.0);
+    return marker;
+  }
+  const auto marker = found_template(map, query);
+  return marker ? std::optional(reshaped(*marker, shapes)) : std::nullopt;
 }
 
 std::vector<std::optional<Template>> learn_all(const InkMap& map,

@@ -109,12 +109,26 @@ double inked(const cv::Mat& ink, double x, double top, double bottom, double sla
                                   cv::Point(cvCeil(x + slack), cvCeil(bottom))) &
                          cv::Rect({0, 0}, ink.size());
   if (there.empty()) return 0;
-  const cv::Mat mask = (ink(there) > 0.3F) / 255;
+  const cv::Mat mask = (ink(there) > 0.12F) / 255;  // as rules are seen
   cv::Mat sums;
   cv::reduce(mask, sums, 0, cv::REDUCE_SUM, CV_32S);
   double most = 0;
   cv::minMaxLoc(sums, nullptr, &most);
   return most / there.height;
+}
+
+/// Pieces of ink that lie whole in a box.
+int pieces_within(const cv::Mat& ink, const cv::Rect& box) {
+  cv::Mat labels, stats, centres;
+  const int n = cv::connectedComponentsWithStats(ink(box) > 0.3F, labels, stats, centres, 8);
+  int pieces = 0;
+  for (int i = 1; i < n; ++i) {
+    const int x = stats.at<int>(i, cv::CC_STAT_LEFT), y = stats.at<int>(i, cv::CC_STAT_TOP);
+    const int w = stats.at<int>(i, cv::CC_STAT_WIDTH), h = stats.at<int>(i, cv::CC_STAT_HEIGHT);
+    pieces += x > 0 && y > 0 && x + w < box.width && y + h < box.height && std::max(w, h) >= 3 &&
+              w < box.width / 2 + 1;
+  }
+  return pieces;
 }
 
 }  // namespace
@@ -144,7 +158,9 @@ std::vector<cv::Rect> find_boxes(const Rules& rules, const cv::Mat& ink, const c
         cv::Rect box(cvFloor(first.from - 3), cvFloor(first.at - 3), cvCeil(first.length() + 6),
                      cvCeil(apart + 6));
         if (is_upright) box = cv::Rect(box.y, box.x, box.height, box.width);
-        if ((box & area).area() > 0.9 * box.area()) boxes.push_back(box & area);
+        // A marker is a box too, an empty one.
+        if ((box & area).area() > 0.9 * box.area() && pieces_within(ink, box & area) >= 3)
+          boxes.push_back(box & area);
       }
   };
   find(rules.rows, ink, area.width, area.height, false);

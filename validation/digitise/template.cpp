@@ -122,8 +122,10 @@ struct Drawn {
 /// Absolute differences, so that bars and lines that stick out do not count much; a box out of
 /// proportion counts more, as it is drawn out along a bar.
 Drawn drawn_like(const cv::Mat& ink, Outline outline) {
-  cv::Mat filled = ink.clone(), core;
-  cv::erode(silhouette(ink), core, cv::Mat::ones(3, 3, CV_8U));
+  double most = 0;
+  cv::minMaxLoc(ink, nullptr, &most);
+  cv::Mat filled = ink / std::max(most, 1e-6), core;  // thin strokes, blurred, cover no pixel
+  cv::erode(silhouette(filled), core, cv::Mat::ones(3, 3, CV_8U));
   filled.setTo(1, core);
   const auto start = box_of(filled);
   std::array<double, 4> best{start.x + start.width / 2 - ink.cols / 2.0,
@@ -256,6 +258,11 @@ double explained(const Template& marker, cv::Point2d origin, const cv::Mat& mode
   return total > 0 ? sum / total : -1;
 }
 
+/// The ink of a template without its margin.
+cv::Mat bare_ink(const Template& marker) {
+  return marker.ink({margin, marker.ink.rows - margin}, {margin, marker.ink.cols - margin});
+}
+
 }  // namespace
 
 std::vector<Shape> candidates(const std::optional<Shape>& asked) {
@@ -330,16 +337,31 @@ Template bare_template(const cv::Mat& ink, const Shape& shape) {
   return marker;
 }
 
-Template trimmed(const Template& marker, const std::vector<Shape>& shapes) {
-  const cv::Mat ink =
-      marker.ink({margin, marker.ink.rows - margin}, {margin, marker.ink.cols - margin});
+Template reshaped(const Template& marker, const std::vector<Shape>& shapes) {
+  if (is_strokes(marker.shape.outline)) return marker;
+  const cv::Mat ink = bare_ink(marker);
+  Shape best = marker.shape;
+  // A hollow outline, too pale to enclose its inside, resembles none.
+  double least = std::min(0.4, drawn_like(ink, best.outline).differs);
+  for (const auto& one : shapes) {
+    if (is_strokes(one.outline) || one.fill != marker.shape.fill) continue;
+    const double now = drawn_like(ink, one.outline).differs;
+    if (now >= least) continue;
+    least = now;
+    best = one;
+  }
+  return best.outline == marker.shape.outline ? marker : make_template(ink, best);
+}
+
+Template trimmed(const Template& marker, const std::vector<Shape>& shapes, double most) {
+  const cv::Mat ink = bare_ink(marker);
   if (is_strokes(marker.shape.outline)) {
     cv::Mat mirrored;
     cv::flip(ink, mirrored, 1);
     return make_template(cv::min(ink, mirrored), marker.shape);
   }
-  // What sticks out is less than an eighth of it, else it is another shape.
-  Drawn best{{}, 1.0 / 8};
+  // What sticks out is less than that, else it is another shape.
+  Drawn best{{}, most};
   Shape shape = marker.shape;
   for (const auto& one : shapes) {
     if (is_strokes(one.outline)) continue;

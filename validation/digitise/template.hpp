@@ -50,9 +50,14 @@ Template bare_template(const cv::Mat& ink, const Shape& shape);
 Template make_template(const cv::Mat& ink, const Shape& shape);
 
 /// The template without what sticks out by more than half a pixel of the outline, of `shapes`, that
-/// its silhouette resembles most: bars and lines. As it is where none resembles it. Of plus, x and
+/// its silhouette resembles most: bars and lines. As it is where none resembles it, to `most` of
+/// its area. Of plus, x and
 /// asterisk what their mirror image has too: a line runs through them one way.
-Template trimmed(const Template& marker, const std::vector<Shape>& shapes);
+Template trimmed(const Template& marker, const std::vector<Shape>& shapes, double most = 1.0 / 8);
+
+/// The template as that outline, of `shapes`, that its silhouette resembles most when each may take
+/// its own size: correlation in one box takes a triangle that has lost its tip for a pentagon.
+Template reshaped(const Template& marker, const std::vector<Shape>& shapes);
 
 /// Least squares over the shift from the best whole pixel near `near`, with weights that leave out
 /// what does not belong to the marker (lines through it, error bars, neighbours).
