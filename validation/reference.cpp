@@ -104,13 +104,16 @@ Curve mean_of_others(const Check& check, const RunResult& run, const Sampled& re
   if (others.empty()) throw InputError("run:others: expected a second run in the study");
   for (const double x : result.at) {
     double sum = 0, u = 0, count = 0;
-    for (const auto& other : others)
-      for (const auto& point : other.points)
-        if (point.x == x) {
-          sum += point.result;
-          u += point.u_result * point.u_result + point.u_interpolation * point.u_interpolation;
-          count += 1;
-        }
+    for (const auto& other : others) {
+      auto point = std::lower_bound(
+          other.points.begin(), other.points.end(), x,
+          [](const ComparedPoint& compared, double wanted) { return compared.x < wanted; });
+      for (; point != other.points.end() && point->x == x; ++point) {
+        sum += point->result;
+        u += point->u_result * point->u_result + point->u_interpolation * point->u_interpolation;
+        count += 1;
+      }
+    }
     if (count == static_cast<double>(others.size()))
       mean.points.push_back({x, sum / count, 0, std::sqrt(u) / count});
   }

@@ -81,6 +81,8 @@ std::string reason_of(const Verdict& verdict) {
   if (const auto without = without_logarithm(verdict); without > 0)
     text += fmt::format("; {} of {} points have no logarithm", without,
                         verdict.comparison.points.size());
+  if (const auto& m = verdict.metric; m.points_drawn < m.points)
+    text += fmt::format("; its interval was drawn at {} of {} points", m.points_drawn, m.points);
   if (verdict.outcome == Outcome::undecided) text += "; " + what_would_settle(verdict);
   return text;
 }
