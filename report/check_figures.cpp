@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "report/columns.hpp"
 #include "report/figure_parts.hpp"
 
 namespace bedscope::report {
@@ -19,6 +20,8 @@ constexpr double coverage_factor = 1.96;
 constexpr double width = 110, left = 19, right = 4, bottom = 11;  // [mm]
 constexpr double main_height = 46, error_height = 20, gap = 4;
 constexpr const char* data_style = "pt 7 ps 0.35 lc rgb '#000000'";
+constexpr const char* range_style = "lw 0.8 lc rgb '#000000'";  // columns touch: 0.8 px of 0.26 mm
+constexpr const char* bars_style = "lw 0.8 lc rgb '#B0B0B0'";
 constexpr const char* outside_style = "pt 6 ps 0.5 lc rgb '#000000'";
 constexpr const char* result_colour = "#0072B2";
 
@@ -52,12 +55,13 @@ std::vector<validation::CurvePoint> shown_reference(const Verdict& verdict) {
   return points;
 }
 
-bool is_left_out(const Verdict& verdict, double x) {
-  const auto at_x = [&](const auto& point) { return point.x == x; };
-  const auto& [outside, vague] =
-      std::pair(std::span(verdict.comparison.outside), std::span(verdict.comparison.without_error));
-  return std::any_of(outside.begin(), outside.end(), at_x) ||
-         std::any_of(vague.begin(), vague.end(), at_x);
+/// Abscissae of points that were not compared, ascending.
+std::vector<double> left_out_at(const Verdict& verdict) {
+  std::vector<double> x;
+  for (const auto* points : {&verdict.comparison.outside, &verdict.comparison.without_error})
+    for (const auto& point : *points) x.push_back(point.x);
+  std::sort(x.begin(), x.end());
+  return x;
 }
 
 /// Ranges of both panels and what stands under their axes.
@@ -111,64 +115,127 @@ Layout layout_of(const Verdict& verdict, std::span<const Estimate> result, bool 
   return layout;
 }
 
-void draw_main(Canvas& canvas, const Verdict& verdict, const Layout& layout,
-               std::span<const Estimate> result) {
-  canvas.open(layout.main);
-  const auto reference = shown_reference(verdict);
-  std::vector<std::string> layers;
-  const auto band = estimate_band(verdict.result.at, result, layout.x_factor);
-  if (!band.empty())
+/// Where columns merge several points: strokes from one end to the other.
+void add_strokes(Canvas& canvas, const std::string& name, std::span<const Column> columns,
+                 double Column::*low, double Column::*high, const char* style,
+                 std::vector<std::string>& layers) {
+  std::string rows;
+  for (const auto& column : columns)
+    if (column.points > 1)
+      rows += data_row({column.x, column.*low}) + data_row({column.x, column.*high}) + "\n";
+  if (!rows.empty())
+    layers.push_back(Canvas::layer(canvas.block(name + ": x, value", rows),
+                                   fmt::format("using 1:2 with lines {}", style)));
+}
+
+void add_ranges(Canvas& canvas, const std::string& name, std::span<const Column> columns,
+                std::vector<std::string>& layers) {
+  add_strokes(canvas, "range of the bars of the " + name, columns, &Column::bar_low,
+              &Column::bar_high, bars_style, layers);
+  add_strokes(canvas, "range of the " + name, columns, &Column::low, &Column::high, range_style,
+              layers);
+}
+
+/// Single points: their bars and markers.
+void add_single(Canvas& canvas, const char* name, std::span<const Column> columns, double cap,
+                const char* style, std::vector<std::string>& layers) {
+  std::vector<double> x;
+  std::vector<Estimate> bars;
+  std::string points;
+  for (const auto& column : columns) {
+    if (column.points > 1) continue;
+    x.push_back(column.x);
+    bars.push_back(
+        {(column.bar_low + column.bar_high) / 2, (column.bar_high - column.bar_low) / 2});
+    points += data_row({column.x, column.low, bars.back().ci95});
+  }
+  if (points.empty()) return;
+  if (cap > 0)
+    layers.push_back(Canvas::layer(
+        canvas.block(fmt::format("bars of the {}: x, value", name), bar_rows(x, bars, cap)),
+        "using 1:2 with lines lw 0.6 lc rgb '#000000'"));
+  layers.push_back(Canvas::layer(canvas.block(fmt::format("{}: x, value, ci95", name), points),
+                                 fmt::format("using 1:2 with points {}", style)));
+}
+
+/// The result's line and band.
+void add_result(Canvas& canvas, const Verdict& verdict, const Layout& layout,
+                std::span<const Estimate> result, std::vector<std::string>& layers) {
+  std::vector<BarPoint> points;
+  for (std::size_t i = 0; i < result.size(); ++i)
+    points.push_back({layout.x_factor * verdict.result.at[i], result[i].value,
+                      result[i].value - result[i].ci95, result[i].value + result[i].ci95});
+  std::vector<double> at;
+  std::vector<Estimate> shown;
+  std::string rows;
+  for (const std::size_t i : corners_of(points, layout.main)) {
+    at.push_back(points[i].x);
+    shown.push_back(result[i]);
+    rows += data_row({points[i].x, result[i].value, result[i].ci95});
+  }
+  if (const auto band = estimate_band(at, shown, 1); !band.empty())
     layers.push_back(Canvas::layer(canvas.block("band of the result: value, x", band),
                                    fmt::format("using 2:1 with filledcurves closed fs transparent "
                                                "solid 0.25 noborder fc rgb '{}'",
                                                result_colour)));
-  std::string rows;
-  for (std::size_t i = 0; i < result.size(); ++i)
-    rows += data_row({layout.x_factor * verdict.result.at[i], result[i].value, result[i].ci95});
   layers.push_back(
       Canvas::layer(canvas.block("result: x, value, ci95", rows),
                     fmt::format("using 1:2 with lines lc rgb '{}' lw 1.3", result_colour)));
-  std::vector<double> x;
-  std::vector<Estimate> bars;
-  std::string points, outside;
-  for (const auto& point : reference) {
-    x.push_back(layout.x_factor * point.x);
-    bars.push_back({point.y + coverage_factor * (point.up() - point.down()) / 2,  // its middle
-                    coverage_factor * (point.up() + point.down()) / 2});
-    (is_left_out(verdict, point.x) ? outside : points) +=
-        data_row({x.back(), point.y, bars.back().ci95});
+}
+
+/// The reference, by what was compared of it and what was not.
+struct Shown {
+  std::vector<Column> compared, left_out;
+};
+
+Shown reference_in(const Verdict& verdict, const Layout& layout) {
+  const auto outside = left_out_at(verdict);
+  std::vector<BarPoint> compared, left_out;
+  for (const auto& point : shown_reference(verdict)) {
+    const bool is_out = std::binary_search(outside.begin(), outside.end(), point.x);
+    (is_out ? left_out : compared)
+        .push_back({layout.x_factor * point.x, point.y, point.y - coverage_factor * point.down(),
+                    point.y + coverage_factor * point.up()});
   }
+  return {columns_of(compared, layout.main), columns_of(left_out, layout.main)};
+}
+
+void draw_main(Canvas& canvas, const Verdict& verdict, const Layout& layout,
+               std::span<const Estimate> result) {
+  canvas.open(layout.main);
+  const auto reference = reference_in(verdict, layout);
   const double cap = bar_cap * (layout.main.x.hi - layout.main.x.lo) / layout.main.width;
-  if (const auto outline = bar_rows(x, bars, cap); !outline.empty() && !reference.empty())
-    layers.push_back(Canvas::layer(canvas.block("bars of the reference: x, value", outline),
-                                   "using 1:2 with lines lw 0.6 lc rgb '#000000'"));
-  const auto add_points = [&](const char* name, const std::string& rows_of, const char* style) {
-    if (!rows_of.empty())
-      layers.push_back(Canvas::layer(canvas.block(name, rows_of),
-                                     fmt::format("using 1:2 with points {}", style)));
-  };
-  add_points("reference: x, value, ci95", points, data_style);
-  add_points("reference not compared: x, value, ci95", outside, outside_style);
+  std::vector<std::string> layers;
+  add_ranges(canvas, "reference", reference.compared, layers);
+  add_ranges(canvas, "reference not compared", reference.left_out, layers);
+  add_result(canvas, verdict, layout, result, layers);
+  add_single(canvas, "reference", reference.compared, cap, data_style, layers);
+  add_single(canvas, "reference not compared", reference.left_out, cap, outside_style, layers);
   canvas.draw(layers);
 }
 
 void draw_errors(Canvas& canvas, const Verdict& verdict, const Layout& layout) {
   canvas.open(layout.errors);
-  std::vector<double> x, low, high;
-  std::string rows;
+  std::vector<BarPoint> points;
   for (const auto& point : verdict.comparison.points) {
-    x.push_back(layout.x_factor * point.x);
-    high.push_back(coverage_factor * point.u_validation());
-    low.push_back(-high.back());
-    rows += data_row({x.back(), point.error(), high.back()});
+    const double half = coverage_factor * point.u_validation();
+    points.push_back({layout.x_factor * point.x, point.error(), -half, half});
+  }
+  const auto columns = columns_of(points, layout.errors);
+  std::vector<double> x, low, high;
+  for (const auto& column : columns) {
+    x.push_back(column.x);
+    low.push_back(column.bar_low);
+    high.push_back(column.bar_high);
   }
   std::vector<std::string> layers;
   if (x.size() > 1)
     layers.push_back(
         Canvas::layer(canvas.block("1.96 u_val: value, x", band_outline(x, low, high)),
                       "using 2:1 with filledcurves closed fs solid 1 noborder fc rgb '#E4E4E4'"));
-  layers.push_back(Canvas::layer(canvas.block("result - reference: x, error, 1.96 u_val", rows),
-                                 fmt::format("using 1:2 with points {}", data_style)));
+  add_strokes(canvas, "range of result - reference", columns, &Column::low, &Column::high,
+              range_style, layers);
+  add_single(canvas, "result - reference", columns, 0, data_style, layers);
   canvas.draw(layers);
 }
 
@@ -217,8 +284,10 @@ Figure check_figure(const Verdict& judged, const std::string& name) {
   const auto result = estimates_of(verdict.result);
   auto layout = layout_of(verdict, result, with_errors);
   std::vector<LegendEntry> entries;
+  const bool merges = verdict.reference.points.size() > most_single;
   if (!verdict.reference.points.empty())
-    entries.push_back({"", data_style, verdict.reference.name});
+    entries.push_back(
+        {merges ? range_style : "", merges ? "" : data_style, verdict.reference.name});
   if (!verdict.comparison.outside.empty() || !verdict.comparison.without_error.empty())
     entries.push_back({"", outside_style, "not compared (outside, or no interval)"});
   entries.push_back({fmt::format("lc rgb '{}' lw 1.3", result_colour), "", verdict.run});
@@ -233,6 +302,12 @@ Figure check_figure(const Verdict& judged, const std::string& name) {
     caption += "; points: " + verdict.reference.name + ", bars: 95 % interval";
   if (with_errors)
     caption += ". Beneath: result less reference, grey: 1.96 times the validation uncertainty";
+  if (merges || verdict.result.at.size() > most_single)
+    caption += fmt::format(
+        ". More points than can be seen ({} of the result, {} of the reference): each {} mm shows "
+        "how far its points reach{}",
+        verdict.result.at.size(), verdict.reference.points.size(), column_width,
+        merges ? ", grey: how far their bars do" : "");
   return drawn(canvas, name, title, caption + ".");
 }
 
@@ -285,10 +360,15 @@ Figure family_figure(const validation::Family& family, const std::string& name) 
   for (const double sign : {-2., 2.})
     ray(family.bias * std::max(0.01, 1 + sign * family.scatter),
         "lc rgb '#D55E00' lw 0.8 dt (6,3)");
+  bool merges = false;
   for (std::size_t k = 0; k < family.verdicts.size(); ++k) {
-    std::string rows;
+    std::vector<std::pair<double, double>> points;
     for (const auto& point : family.verdicts[k]->comparison.points)
-      rows += data_row({point.reference, point.result});
+      points.emplace_back(point.reference, point.result);
+    merges = merges || points.size() > most_single;
+    std::string rows;
+    for (const auto& [reference, result] : told_apart(points, panel))
+      rows += data_row({reference, result});
     const auto style = style_of(names[k]);
     layers.push_back(Canvas::layer(
         canvas.block("reference, result", rows),
@@ -300,6 +380,7 @@ Figure family_figure(const validation::Family& family, const std::string& name) 
       "the reference's own ({:.2g}) taken out; {} points",
       family.bias, family.scatter, family.sigma_experiment, family.points);
   if (family.left_out > 0) caption += fmt::format(", {} not above 0 left out", family.left_out);
+  if (merges) caption += fmt::format(", one marker for all within {} mm", cell_width);
   return drawn(canvas, name, title, caption + ".");
 }
 
