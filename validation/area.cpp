@@ -90,14 +90,22 @@ std::vector<double> memory_of_a_shift(std::span<const double> density) {
   return memory;
 }
 
-/// Standard uncertainties of a curve's ordinates, those of its abscissae through its own slope
-/// among them.
+/// Standard uncertainties of a curve's ordinates, those of its abscissae among them through its own
+/// slope over their reach, or between its neighbours where these are further.
 std::vector<double> ordinate_errors(const Curve& curve) {
   std::vector<double> u;
   const auto& points = curve.points;
+  const auto first_from = [&](double x) {
+    return static_cast<std::size_t>(
+        std::partition_point(points.begin(), points.end(),
+                             [&](const CurvePoint& point) { return point.x < x; }) -
+        points.begin());
+  };
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto &before = points[i == 0 ? 0 : i - 1],
-               &after = points[std::min(i + 1, points.size() - 1)];
+    const std::size_t first = first_from(points[i].x - points[i].u_x);
+    const std::size_t behind = first_from(points[i].x + points[i].u_x);
+    const auto &before = points[std::min(first, i == 0 ? 0 : i - 1)],
+               &after = points[std::min(std::max(behind, i + 2) - 1, points.size() - 1)];
     u.push_back(
         std::hypot(points[i].u_y, (after.y - before.y) / (after.x - before.x) * points[i].u_x));
   }

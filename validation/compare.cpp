@@ -42,6 +42,23 @@ double between(double a, double b, double share) {
   return share < 1 ? (1 - share) * a + share * b : b;
 }
 
+/// Linear between the points of a curve, from its first to its last.
+double linear(const Sampled& curve, double x) {
+  const auto above = std::upper_bound(curve.at.begin() + 1, curve.at.end() - 1, x);
+  const auto k = static_cast<std::size_t>(above - curve.at.begin());
+  const double share = (x - curve.at[k - 1]) / (curve.at[k] - curve.at[k - 1]);
+  return between(curve.value[k - 1], curve.value[k], share);
+}
+
+/// The slope of the result that an error of the reference's abscissa meets: over its reach, or
+/// between the neighbours k - 1 and k where these are wider apart. Of neighbours that are closer
+/// the difference is the result's noise, which is no slope.
+double slope_at(const Sampled& result, std::size_t k, const CurvePoint& reference) {
+  const double from = std::clamp(reference.x - reference.u_x, result.at.front(), result.at[k - 1]);
+  const double to = std::clamp(reference.x + reference.u_x, result.at[k], result.at.back());
+  return (linear(result, to) - linear(result, from)) / (to - from);
+}
+
 /// The reference's errors at its point, where the result has this slope.
 void set_reference_errors(const CurvePoint& reference, double slope, ComparedPoint& point) {
   const bool above = point.result >= reference.y;
@@ -68,8 +85,7 @@ ComparedPoint at_reference(const Sampled& result, const CurvePoint& reference) {
   const std::size_t count = std::min<std::size_t>(4, result.at.size());
   const std::size_t first = std::min(k < 2 ? 0 : k - 2, result.at.size() - count);
   point.u_interpolation = std::abs(polynomial(result, first, count, reference.x) - point.result);
-  const double slope = (result.value[k] - result.value[k - 1]) / width;
-  set_reference_errors(reference, slope, point);
+  set_reference_errors(reference, slope_at(result, k, reference), point);
   return point;
 }
 

@@ -32,8 +32,8 @@ struct ComparedPoint {
   double x = 0, result = 0, reference = 0;
   double u_result = 0;         ///< standard error of the time average
   double u_interpolation = 0;  ///< of the result between its own abscissae
-  double u_reference = 0;      ///< of its ordinate, and of its abscissa through the result's slope,
-                               ///< towards the result where a bar has unequal arms
+  double u_reference = 0;      ///< of its ordinate, and of its abscissa through the result's slope
+                               ///< over its reach; towards the result where a bar has unequal arms
   double u_reference_away = -1;  ///< away from it; below 0: as u_reference
 
   double error() const { return result - reference; }
