@@ -102,6 +102,26 @@ class Validate(unittest.TestCase):
         self.assertNotIn("<script", page)
         self.assertIn("Carlos Varas", page)
 
+    def test_long_curves_give_a_page_that_can_be_sent(self):
+        os.makedirs(self.folder + "/long/tables")
+        rng, z = np.random.default_rng(3), (np.arange(20000) + 0.5) / 20000
+        with open(self.folder + "/long/tables/axial_profile.csv", "w") as file:
+            file.write("z [m],holdup [-],holdup_ci95 [-]\n")
+            file.writelines(f"{a},{0.1 - 0.05 * a + e},0.004\n" for a, e in zip(z, 0.002 * rng.normal(size=20000)))
+        with open(self.folder + "/long.csv", "w") as file:
+            file.write("z [m],holdup [-],holdup_u [-]\n")
+            file.writelines(f"{a},{0.1 - 0.05 * a},0.002\n" for a in z)
+        path = self.folder + "/study_of_long.toml"
+        with open(path, "w") as file:
+            file.write('[[run]]\nlabel = "a"\ntables = "long"\n[[check]]\nquantity = "axial holdup"\n'
+                       'against = "long.csv"\nmetric = "relative rmse"\nlimit = 0.1\n')
+        done = self.validate(path)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertIn("its interval was drawn at 1000 of 20000 points", done.stdout)
+        self.assertLess(os.path.getsize(self.folder + "/out/report.html"), 2e6)  # two panels of a megabyte
+        with open(self.folder + "/out/report.html") as file:
+            self.assertIn("More points than can be seen (20000 of the result, 20000 of the reference)", file.read())
+
     def test_another_velocitys_experiment_is_rejected(self):
         study = self.study(['quantity = "axial holdup"\nagainst = "varas_2017/axial_holdup?U=6.74"\n'
                             'metric = "relative rmse"\nlimit = 0.25'])
