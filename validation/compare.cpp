@@ -111,13 +111,6 @@ double sum_of_squares(const Comparison& comparison) {
   return sum / static_cast<double>(std::max<std::size_t>(comparison.points.size(), 1));
 }
 
-/// The reference from the other wall: x becomes min + max - x of the result's range.
-std::vector<CurvePoint> turned(const Sampled& result, std::vector<CurvePoint> points) {
-  for (auto& point : points) point.x = result.at.front() + result.at.back() - point.x;
-  std::reverse(points.begin(), points.end());
-  return points;
-}
-
 /// The errors of averages over the same snapshots are the same, and drop out of their difference.
 void drop_common_errors(std::vector<ComparedPoint>& points) {
   for (auto& point : points) point.u_result = point.u_reference = point.u_reference_away = 0;
@@ -134,6 +127,12 @@ double ComparedPoint::u_validation() const {
                    u_reference * u_reference);
 }
 
+std::vector<CurvePoint> turned_round(const Sampled& result, std::vector<CurvePoint> points) {
+  for (auto& point : points) point.x = result.at.front() + result.at.back() - point.x;
+  std::reverse(points.begin(), points.end());
+  return points;
+}
+
 Comparison compare(const Sampled& all, const Curve& reference, std::size_t least) {
   if (all.y.unit != reference.y.unit || (!all.is_scalar && all.x.unit != reference.x.unit))
     throw InputError("{}: {} against {}: expected the units of the result, {} against {}",
@@ -148,7 +147,7 @@ Comparison compare(const Sampled& all, const Curve& reference, std::size_t least
     other.points.clear();
     other.outside.clear();
     other.without_error.clear();
-    match(result, turned(result, reference.points), other);
+    match(result, turned_round(result, reference.points), other);
     if (other.points.size() >= found.points.size() &&
         sum_of_squares(other) < sum_of_squares(found)) {
       found = std::move(other);

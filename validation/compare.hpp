@@ -55,6 +55,9 @@ struct Comparison {
   double duration = 0;
 };
 
+/// The reference's points from the other wall: x becomes first + last - x of the result's abscissae.
+std::vector<CurvePoint> turned_round(const Sampled& result, std::vector<CurvePoint> points);
+
 /// The result interpolated linearly to the abscissae of the reference, nowhere extrapolated (half a
 /// cell at the ends is not either). The interpolation's error is taken as its difference from the
 /// cubic through four neighbours. Non-finite values of the result are left out first. Where the

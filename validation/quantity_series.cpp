@@ -260,24 +260,38 @@ Sampled series_mean(const RunResult& run, const Signal& signal) {
 }
 Sampled series_history(const Signal& signal) { return history(signal); }
 
-/// Probability density of the clusters' lateral places in the domain, 0 to 1, with the errors of
-/// counts (Poisson).
+/// Probability density of the clusters' lateral places in the domain, 0 to 1, over the window. Its
+/// errors are those of the snapshots as samples, for a cluster is seen in many of them; at least
+/// those of counts (Poisson), which also a bin has that saw none.
 Sampled cluster_position(const RunResult& run, const Place&) {
   Sampled sampled{.x = {"x over width", "-"}, .is_distribution = true};
-  std::vector<double> counts(distribution_bins);
+  std::vector<std::size_t> sample_of(run.occurrence.size());  // of each snapshot in the window
+  std::size_t samples = 0;
+  for (std::size_t i = 0; i < sample_of.size(); ++i)
+    sample_of[i] = in_window(run, run.occurrence[i].time) ? samples++ : sample_of.size();
+  std::vector<std::vector<double>> counts(distribution_bins, std::vector<double>(samples));
+  std::vector<double> all(samples);
   const double low = run.grid.min[0], width = run.grid.max[0] - low;
   for (const auto& cluster : run.clusters) {
     const double share = (cluster.centre.x - low) / width;
-    if (!(share >= 0 && share <= 1)) continue;
-    counts[static_cast<std::size_t>(
-        std::min<double>(share * distribution_bins, distribution_bins - 1))] += 1;
+    if (cluster.snapshot >= sample_of.size() || sample_of[cluster.snapshot] >= samples ||
+        !(share >= 0 && share <= 1))
+      continue;
+    const auto bin = static_cast<std::size_t>(
+        std::min<double>(share * distribution_bins, distribution_bins - 1));
+    counts[bin][sample_of[cluster.snapshot]] += 1;
+    all[sample_of[cluster.snapshot]] += 1;
   }
-  const double all = std::accumulate(counts.begin(), counts.end(), 0.);
-  if (all == 0) return sampled;
+  const double total = std::accumulate(all.begin(), all.end(), 0.);
+  if (total == 0) return sampled;
+  const std::vector<double> weights(samples, 1);
   for (int k = 0; k < distribution_bins; ++k) {
+    const double count = std::accumulate(counts[k].begin(), counts[k].end(), 0.);
+    const double of_snapshots =
+        analysis::estimate_ratio(counts[k], all, weights).ci95 / coverage_factor;
     sampled.at.push_back((k + .5) / distribution_bins);
-    sampled.value.push_back(counts[k] / all * distribution_bins);
-    sampled.u.push_back(std::sqrt(counts[k] + 1) / all * distribution_bins);
+    sampled.value.push_back(count / total * distribution_bins);
+    sampled.u.push_back(std::fmax(std::sqrt(count + 1) / total, of_snapshots) * distribution_bins);
   }
   return sampled;
 }

@@ -70,7 +70,8 @@ std::ptrdiff_t without_logarithm(const Verdict& verdict) {
   });
 }
 
-std::string reason_of(const Verdict& verdict) {
+/// `why`: besides an interval that holds the limit, what keeps the check from being decided.
+std::string reason_of(const Verdict& verdict, const std::string& why = "") {
   std::string text = standing(verdict);
   if (!verdict.comparison.outside.empty())
     text += fmt::format("; {} of {} points of the reference lie outside the result",
@@ -83,6 +84,7 @@ std::string reason_of(const Verdict& verdict) {
                         verdict.comparison.points.size());
   if (const auto& m = verdict.metric; m.points_drawn < m.points)
     text += fmt::format("; its interval was drawn at {} of {} points", m.points_drawn, m.points);
+  if (!why.empty()) return text + why;
   if (verdict.outcome == Outcome::undecided) text += "; " + what_would_settle(verdict);
   return text;
 }
@@ -113,18 +115,30 @@ bool too_uncertain(const Verdict& verdict, std::string& why) {
   return true;
 }
 
-void compare_with_reference(Verdict& verdict) {
-  const auto& check = verdict.check;
-  if (check.metric == "area") {
-    if (!verdict.result.is_distribution)
-      throw InputError("area: {} is no distribution: expected another metric",
-                       check.place.quantity);
-    verdict.metric = evaluate_area(verdict.result, verdict.reference);
-    verdict.outcome = judge(verdict.metric, verdict.limit, true);
-    verdict.reason = reason_of(verdict);
-    return;
+/// Whether the reference was turned round.
+bool judge_area(Verdict& verdict) {
+  if (!verdict.result.is_distribution)
+    throw InputError("area: {} is no distribution: expected another metric",
+                     verdict.check.place.quantity);
+  verdict.metric = evaluate_area(verdict.result, verdict.reference);
+  bool is_turned = false;
+  if (!verdict.reference.about.orientation_known) {
+    auto turned = verdict.reference;
+    turned.points = turned_round(verdict.result, turned.points);
+    const auto other = evaluate_area(verdict.result, turned);
+    is_turned = other.value < verdict.metric.value;
+    if (is_turned) {
+      verdict.metric = other;
+      verdict.reference = std::move(turned);
+    }
   }
-  const auto& metric = find_metric(check.metric);
+  verdict.outcome = judge(verdict.metric, verdict.limit, true);
+  verdict.reason = reason_of(verdict);
+  return is_turned;
+}
+
+bool judge_errors(Verdict& verdict) {
+  const auto& metric = find_metric(verdict.check.metric);
   verdict.small_is_good = metric.small_is_good;
   verdict.comparison = compare(verdict.result, verdict.reference, metric.least_points);
   verdict.metric = evaluate(metric, verdict.comparison);
@@ -132,17 +146,17 @@ void compare_with_reference(Verdict& verdict) {
   std::string why;
   if (verdict.outcome == Outcome::holds && too_uncertain(verdict, why))
     verdict.outcome = Outcome::undecided;
-  verdict.reason = why.empty() ? reason_of(verdict) : standing(verdict) + why;
-  if (verdict.comparison.mirrored)
-    verdict.assumptions.push_back(
-        verdict.reference.name +
-        ": which wall is which is not stated; both ways were tried, turned "
-        "round it fits better");
-  else if (!verdict.reference.about.orientation_known)
-    verdict.assumptions.push_back(
-        verdict.reference.name +
-        ": which wall is which is not stated; both ways were tried, as it "
-        "stands it fits better");
+  verdict.reason = reason_of(verdict, why);
+  return verdict.comparison.mirrored;
+}
+
+void compare_with_reference(Verdict& verdict) {
+  const bool is_turned =
+      verdict.check.metric == "area" ? judge_area(verdict) : judge_errors(verdict);
+  if (!verdict.reference.about.orientation_known)
+    verdict.assumptions.push_back(fmt::format(
+        "{}: which wall is which is not stated; both ways were tried, {} it fits better",
+        verdict.reference.name, is_turned ? "turned round" : "as it stands"));
 }
 
 std::size_t snapshots_of(const RunResult& run) {
