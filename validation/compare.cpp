@@ -9,20 +9,40 @@
 namespace bedscope::validation {
 namespace {
 
-/// The finite values of a result.
-Sampled seen(const Sampled& all) {
-  Sampled kept = all;
-  kept.at.clear();
-  kept.value.clear();
-  kept.u.clear();
-  for (std::size_t i = 0; i < all.at.size(); ++i) {
-    if (!std::isfinite(all.value[i])) continue;
-    kept.at.push_back(all.at[i]);
-    kept.value.push_back(all.value[i]);
-    kept.u.push_back(all.u[i]);
+/// The finite values of a result, and where others lay between them: from the last value before to
+/// the first behind.
+struct Seen {
+  Sampled curve;
+  std::vector<std::pair<double, double>> gaps;  ///< ascending
+
+  explicit Seen(const Sampled& all) : curve(all) {
+    curve.at.clear();
+    curve.value.clear();
+    curve.u.clear();
+    bool in_gap = false;
+    for (std::size_t i = 0; i < all.at.size(); ++i) {
+      const bool is_seen = std::isfinite(all.value[i]);
+      if (is_seen) {
+        if (in_gap && !curve.at.empty()) gaps.emplace_back(curve.at.back(), all.at[i]);
+        curve.at.push_back(all.at[i]);
+        curve.value.push_back(all.value[i]);
+        curve.u.push_back(all.u[i]);
+      }
+      in_gap = !is_seen;
+    }
   }
-  return kept;
-}
+
+  bool reaches(double x) const {
+    return curve.is_scalar || (x >= curve.at.front() && x <= curve.at.back());
+  }
+  /// But for rounding: at its ends there are values.
+  bool has_gap_at(double x) const {
+    const auto ends = [](const auto& gap) { return 1e-9 * (gap.second - gap.first); };
+    const auto gap = std::partition_point(gaps.begin(), gaps.end(),
+                                          [&](const auto& g) { return g.second - ends(g) <= x; });
+    return gap != gaps.end() && x > gap->first + ends(*gap);
+  }
+};
 
 /// The Lagrange polynomial through the points first ... first + count - 1 at x.
 double polynomial(const Sampled& curve, std::size_t first, std::size_t count, double x) {
@@ -89,15 +109,14 @@ ComparedPoint at_reference(const Sampled& result, const CurvePoint& reference) {
   return point;
 }
 
-void match(const Sampled& result, const std::vector<CurvePoint>& reference, Comparison& found) {
+void match(const Seen& seen, const std::vector<CurvePoint>& reference, Comparison& found) {
   for (const auto& point : reference) {
-    const bool reached =
-        result.is_scalar || (point.x >= result.at.front() && point.x <= result.at.back());
-    if (!reached) {
+    if (!seen.reaches(point.x) || seen.has_gap_at(point.x)) {
+      found.in_gaps += seen.reaches(point.x) ? 1 : 0;
       found.outside.push_back(point);
       continue;
     }
-    const auto compared = at_reference(result, point);
+    const auto compared = at_reference(seen.curve, point);
     if (std::isfinite(compared.u_result))
       found.points.push_back(compared);
     else
@@ -138,16 +157,18 @@ Comparison compare(const Sampled& all, const Curve& reference, std::size_t least
     throw InputError("{}: {} against {}: expected the units of the result, {} against {}",
                      reference.name, reference.y.text(), reference.x.text(), all.y.text(),
                      all.x.text());
-  const auto result = seen(all);
+  const Seen seen(all);
+  const auto& result = seen.curve;
   Comparison found{
       .x = all.x, .y = all.y, .error_known = all.error_known, .duration = all.duration};
-  if (!result.at.empty()) match(result, reference.points, found);
+  if (!result.at.empty()) match(seen, reference.points, found);
   if (!reference.about.orientation_known && result.at.size() > 1) {
     Comparison other = found;
     other.points.clear();
     other.outside.clear();
+    other.in_gaps = 0;
     other.without_error.clear();
-    match(result, turned_round(result, reference.points), other);
+    match(seen, turned_round(result, reference.points), other);
     if (other.points.size() >= found.points.size() &&
         sum_of_squares(other) < sum_of_squares(found)) {
       found = std::move(other);

@@ -87,8 +87,10 @@ Columns find_columns(const std::string& path, const analysis::CsvReader& rows, S
   for (std::size_t k = 0; k < header.size(); ++k)
     if (!is_extra(parse_title(header[k]).name)) plain.push_back(k);
   if (plain.size() < 2)
-    throw FormatError("{}: line 1: expected an abscissa and an ordinate with their units, found {}",
-                      path, fmt::join(header, ", "));
+    throw FormatError(
+        "{}: line 1: expected an abscissa and an ordinate with their units, a comma between them, "
+        "found {}",
+        path, fmt::join(header, ", "));
   columns.x =
       sidecar.abscissa.empty() ? plain[plain.size() - 2] : needed(path, rows, sidecar.abscissa);
   columns.y = sidecar.ordinate.empty() ? plain.back() : needed(path, rows, sidecar.ordinate);
@@ -253,11 +255,19 @@ void assume_uncertainties(const Sidecar& sidecar, bool has_bars, Curve& curve) {
   if (!has_bars) assume(sidecar.u_y, curve.y, &CurvePoint::y, &CurvePoint::u_y, assumed_u_y);
 }
 
+/// All of a few values, the ends of many.
+std::string listed(const std::vector<std::string>& values) {
+  constexpr std::size_t most = 12;
+  if (values.size() <= most) return fmt::format("{}", fmt::join(values, ", "));
+  return fmt::format("{}, {} ... {} ({} values)", values[0], values[1], values.back(),
+                     values.size());
+}
+
 std::string choices(const CurveSet& set) {
   std::string text;
   for (const auto& parameter : set.parameters)
     text += fmt::format("{}{} = {}", text.empty() ? "" : "; ", parameter.title.name,
-                        fmt::join(parameter.values, ", "));
+                        listed(parameter.values));
   return text;
 }
 
@@ -316,9 +326,11 @@ Curve read_curve(const CurveSet& set, const std::string& selection,
   // A column without a unit is a label of the source; the numbers beside it choose.
   for (std::size_t k = 0; k < wanted.size(); ++k)
     if (left[k].size() > 1 && !set.parameters[k].title.unit.empty())
-      throw InputError("{}: several curves: expected a choice of {}, found {} = {}; there are {}",
-                       selection, set.parameters[k].title.name, set.parameters[k].title.name,
-                       fmt::join(ordered(left[k]), ", "), choices(set));
+      throw InputError(
+          "{}: several curves of {} against {}: expected a choice of {}, found {} = {}; there are "
+          "{}",
+          selection, set.y.text(), set.x.text(), set.parameters[k].title.name,
+          set.parameters[k].title.name, listed(ordered(left[k])), choices(set));
   if (curve.points.empty())
     throw InputError("{}: no point is left; there are {}", selection, choices(set));
   if (curve.x.is_time() && !disorder.empty()) throw FormatError("{}", disorder);

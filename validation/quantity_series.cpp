@@ -52,19 +52,33 @@ bool ascending(const std::vector<double>& times) {
                             [](double a, double b) { return !(a < b); }) == times.end();
 }
 
-Estimate mean_of(const Signal& signal) {
+/// Its mean, and what makes that or its interval doubtful.
+Sampled mean_of(const RunResult& run, const std::string& what, const Signal& signal) {
   const auto weights = ascending(signal.times) ? analysis::time_weights(signal.times)
                                                : std::vector<double>(signal.times.size(), 1);
-  return analysis::estimate_mean(signal.values, weights).estimate();
+  const auto mean = analysis::estimate_mean(signal.values, weights);
+  auto sampled = single(mean.estimate());
+  const auto note = [&](const std::string& words) {
+    sampled.notes.push_back(fmt::format("run \"{}\": {}: {}", run.label, what, words));
+  };
+  if (mean.few_samples && signal.values.size() > 1)
+    note(fmt::format("{:.3g} independent samples, too few for its interval to be trusted",
+                     mean.independent_samples));
+  if (mean.disagree) note("batch means and autocorrelation time disagree on the error");
+  const auto drift = analysis::drift_of(signal.values);
+  if (drift.significance > analysis::significant_drift)
+    note(fmt::format("drifts by {:.3g} over the window ({:.3g} standard errors): is it steady?",
+                     drift.change, drift.significance));
+  return sampled;
 }
 
 /// Over the window, unless the analysis of dumps already knows it.
 template <class Row, class Value>
-Sampled window_mean(const RunResult& run, const Estimate& known, const std::vector<Row>& rows,
-                    Value Row::*value) {
+Sampled window_mean(const RunResult& run, const Place& place, const Estimate& known,
+                    const std::vector<Row>& rows, Value Row::*value) {
   if (std::isfinite(known.value)) return single(known);
-  return single(
-      mean_of(series(rows, value, [&](const Row& row) { return in_window(run, row.time); })));
+  return mean_of(run, place.quantity,
+                 series(rows, value, [&](const Row& row) { return in_window(run, row.time); }));
 }
 
 /// The same of rows that have a species.
@@ -72,9 +86,9 @@ template <class Row>
 Sampled species_mean(const RunResult& run, const Place& place, const Estimate& known,
                      const std::vector<Row>& rows, double Row::*value) {
   if (place.species == "all" && std::isfinite(known.value)) return single(known);
-  return single(mean_of(series(rows, value, [&](const Row& row) {
-    return row.type == place.species && in_window(run, row.time);
-  })));
+  return mean_of(run, place.quantity, series(rows, value, [&](const Row& row) {
+                   return row.type == place.species && in_window(run, row.time);
+                 }));
 }
 
 /// A series as it is: each instant one value of one realisation, which has no error of a mean.
@@ -168,8 +182,8 @@ const analysis::Fluctuation& probe_of(const RunResult& run, const Place& place) 
 
 }  // namespace
 
-Sampled occurrence(const RunResult& run, const Place&) {
-  return window_mean(run, run.mean_occurrence, run.occurrence,
+Sampled occurrence(const RunResult& run, const Place& place) {
+  return window_mean(run, place, run.mean_occurrence, run.occurrence,
                      &analysis::OccurrenceSample::clusters);
 }
 Sampled cluster_holdup(const RunResult& run, const Place&) {
@@ -192,12 +206,14 @@ Sampled mean_temperature(const RunResult& run, const Place& place) {
 Sampled temperature_spread(const RunResult& run, const Place& place) {
   return species_mean(run, place, {}, run.temperature, &analysis::TemperatureSample::std);
 }
-Sampled pressure_drop(const RunResult& run, const Place&) {
-  return window_mean(run, run.gas.pressure_drop, run.gas.pressure, &analysis::PressureSample::drop);
+Sampled pressure_drop(const RunResult& run, const Place& place) {
+  return window_mean(run, place, run.gas.pressure_drop, run.gas.pressure,
+                     &analysis::PressureSample::drop);
 }
 Sampled bed_voidage(const RunResult& run, const Place&) { return single(run.bed_voidage); }
-Sampled bed_height(const RunResult& run, const Place&) {
-  return window_mean(run, run.bed.surface, run.bed.samples, &analysis::BedHeightSample::surface);
+Sampled bed_height(const RunResult& run, const Place& place) {
+  return window_mean(run, place, run.bed.surface, run.bed.samples,
+                     &analysis::BedHeightSample::surface);
 }
 
 Sampled bubble_number(const RunResult& run, const Place&) {
@@ -256,7 +272,7 @@ Sampled series_mean(const RunResult& run, const Signal& signal) {
       kept.times.push_back(signal.times[i]);
       kept.values.push_back(signal.values[i]);
     }
-  return single(mean_of(kept));
+  return mean_of(run, signal.name, kept);
 }
 Sampled series_history(const Signal& signal) { return history(signal); }
 

@@ -135,7 +135,8 @@ Curve reduced(Curve curve, const Sampled& result) {
     signal.values.push_back(point.y);
     u = std::max(u, point.u_y);
   }
-  const auto found = analysis::fluctuation_of(signal, 0, curve.assumptions);
+  std::vector<std::string> of_spectrum;
+  const auto found = analysis::fluctuation_of(signal, 0, of_spectrum);
   analysis::Estimate estimate = found.mean;
   const char* words = "mean";
   if (result.statistic == Statistic::deviation) {
@@ -146,6 +147,7 @@ Curve reduced(Curve curve, const Sampled& result) {
     estimate = found.dominant;
     words = "dominant frequency";
     curve.y = {"dominant frequency", "Hz"};
+    curve.assumptions.insert(curve.assumptions.end(), of_spectrum.begin(), of_spectrum.end());
     u = 0;
   }
   if (!std::isfinite(estimate.value))

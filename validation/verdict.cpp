@@ -74,14 +74,19 @@ std::ptrdiff_t without_logarithm(const Verdict& verdict) {
 std::string reason_of(const Verdict& verdict, const std::string& why = "") {
   std::string text = standing(verdict);
   if (!verdict.comparison.outside.empty())
-    text += fmt::format("; {} of {} points of the reference lie outside the result",
-                        verdict.comparison.outside.size(), verdict.reference.points.size());
+    text += fmt::format("; {} of {} points of the reference lie outside the result{}",
+                        verdict.comparison.outside.size(), verdict.reference.points.size(),
+                        verdict.comparison.in_gaps > 0 ? ", or in a gap of it" : "");
   if (!verdict.comparison.without_error.empty())
     text += fmt::format("; at {} more the result has no interval, and is not compared",
                         verdict.comparison.without_error.size());
   if (const auto without = without_logarithm(verdict); without > 0)
     text += fmt::format("; {} of {} points have no logarithm", without,
                         verdict.comparison.points.size());
+  const auto& of_profile = verdict.result.at;
+  if (find_shape(verdict.check.metric) != nullptr && verdict.metric.points < of_profile.size())
+    text += fmt::format("; {} of {} points of the profile have no value, or no interval",
+                        of_profile.size() - verdict.metric.points, of_profile.size());
   if (const auto& m = verdict.metric; m.points_drawn < m.points)
     text += fmt::format("; its interval was drawn at {} of {} points", m.points_drawn, m.points);
   if (!why.empty()) return text + why;

@@ -122,6 +122,46 @@ class Validate(unittest.TestCase):
         with open(self.folder + "/out/report.html") as file:
             self.assertIn("More points than can be seen (20000 of the result, 20000 of the reference)", file.read())
 
+    def series(self, times, values):
+        os.makedirs(self.folder + "/a/tables", exist_ok=True)
+        with open(self.folder + "/a/tables/series.csv", "w") as file:
+            file.write("series,unit,time [s],value\n")
+            file.writelines(f"dp,Pa,{t},{v}\n" for t, v in zip(times, values))
+        return self.study(['quantity = "series: dp"\nagainst = 100\nmetric = "relative bias"\nlimit = 0.5'])
+
+    def test_what_makes_the_mean_of_a_series_doubtful_is_said(self):
+        rng, t = np.random.default_rng(5), np.arange(1000) / 100
+        for values, said in ((100 + rng.normal(size=1000), ""), (100 + t + rng.normal(size=1000), "is it steady?"),
+                             ([99, 101, 100], "3 independent samples, too few")):
+            done = self.validate(self.series(t[:len(values)], values))
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual('run "a": dp:' in done.stdout, said != "", done.stdout)
+            self.assertIn(said, done.stdout)
+
+    def test_a_study_that_is_named_as_its_curve_is_told_from_a_sidecar(self):
+        study = self.study(['quantity = "axial holdup"\nagainst = "study.csv"\nmetric = "max error"\nlimit = 1'])
+        with open(self.folder + "/study.csv", "w") as file:
+            file.write("z [m],holdup [-]\n0.1,0.1\n")
+        self.assertIn("read as the sidecar of " + self.folder + "/study.csv", self.validate(study).stderr)
+
+    def test_columns_that_are_taken_for_the_curve_are_named(self):
+        study = self.study(['quantity = "axial holdup"\nagainst = "r.csv"\nmetric = "max error"\nlimit = 1'])
+        with open(self.folder + "/r.csv", "w") as file:
+            file.write("z [m],holdup [-],holdup_std [-]\n" + "".join(f"{k / 50},0.1,0.01\n" for k in range(50)))
+        told = self.validate(study).stderr
+        self.assertIn("several curves of holdup_std [-] against holdup [-]", told)
+        self.assertIn("z = 0.0, 0.02 ... 0.98 (50 values)", told)
+
+    def test_nothing_is_compared_in_a_gap_of_the_result(self):
+        study = self.study(['quantity = "axial holdup"\nagainst = "r.csv"\nmetric = "max error"\nlimit = 1'])
+        with open(self.folder + "/a/tables/axial_profile.csv", "w") as file:
+            file.write("z [m],holdup [-],holdup_ci95 [-]\n")
+            file.writelines(f"{z / 50},{'nan' if 10 < z < 20 else 0.1},0.001\n" for z in range(51))
+        with open(self.folder + "/r.csv", "w") as file:
+            file.write("z [m],holdup [-]\n" + "".join(f"{k / 10},0.1\n" for k in range(11)))
+        self.assertIn("1 of 11 points of the reference lie outside the result, or in a gap of it",
+                      self.validate(study).stdout)
+
     def test_another_velocitys_experiment_is_rejected(self):
         study = self.study(['quantity = "axial holdup"\nagainst = "varas_2017/axial_holdup?U=6.74"\n'
                             'metric = "relative rmse"\nlimit = 0.25'])

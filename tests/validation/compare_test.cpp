@@ -99,6 +99,17 @@ TEST(Compare, ValuesThatNobodySawAreLeftOut) {
   EXPECT_EQ(found.outside.size(), 1U);
 }
 
+TEST(Compare, NothingIsInterpolatedAcrossAGap) {
+  auto line = straight_line();
+  line.value[4] = line.value[5] = line.value[8] = NAN;  // 0.3 to 0.6, 0.7 to 0.9
+  const auto found =
+      compare(line, reference({{.3, 0}, {.31, 0}, {.45, 0}, {.6, 0}, {.65, 0}, {.8, 0}, {1, 0}}));
+  ASSERT_EQ(found.points.size(), 4U);
+  EXPECT_EQ(found.points[1].x, .6);
+  EXPECT_EQ(found.outside.size(), 3U);
+  EXPECT_EQ(found.in_gaps, 3U);
+}
+
 TEST(Compare, UnitsHaveToAgree) {
   auto line = straight_line();
   line.y.unit = "kg/m2/s";
