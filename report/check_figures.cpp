@@ -100,7 +100,7 @@ Layout layout_of(const Verdict& verdict, std::span<const Estimate> result, bool 
   layout.main.y = rounded_axis(y.lo, y.hi, 6);
   const bool has_axis = !verdict.result.is_scalar;
   layout.main.x_numbers = !with_errors && has_axis;
-  layout.main.y_label = literal(fmt::format("{}", verdict.result.y.text()));
+  layout.main.y_label = literal(shortened(verdict.result.y.text(), main_height));
   layout.main.y_label_gap = 14;
   layout.errors = layout.main;
   layout.errors.bottom = bottom;
@@ -108,7 +108,8 @@ Layout layout_of(const Verdict& verdict, std::span<const Estimate> result, bool 
   layout.errors.x_numbers = has_axis;
   layout.errors.y = rounded_axis(e.lo, e.hi, 4);
   layout.errors.zero_line = true;
-  layout.errors.y_label = literal(fmt::format("error [{}]", verdict.result.y.unit));
+  layout.errors.y_label =
+      literal(shortened(fmt::format("error [{}]", verdict.result.y.unit), error_height));
   if (has_axis)
     (with_errors ? layout.errors : layout.main).x_label =
         literal(fmt::format("{} [{}]", verdict.result.x.name, unit.name));
@@ -341,8 +342,10 @@ Figure family_figure(const validation::Family& family, const std::string& name) 
   canvas.legend(entries, left, canvas.height() - 0.5, width - left);
   Panel panel{.left = left, .bottom = bottom, .width = side, .height = side};
   panel.x = panel.y = rounded_axis(range.lo, range.hi, 5);
-  panel.x_label = literal(fmt::format("reference {} [{}]", family.quantity, family.unit));
-  panel.y_label = literal(fmt::format("result {} [{}]", family.quantity, family.unit));
+  panel.x_label =
+      literal(shortened(fmt::format("reference {} [{}]", family.quantity, family.unit), side));
+  panel.y_label =
+      literal(shortened(fmt::format("result {} [{}]", family.quantity, family.unit), side));
   panel.y_label_gap = 14;
   canvas.open(panel);
   std::vector<std::string> layers;
@@ -379,7 +382,9 @@ Figure family_figure(const validation::Family& family, const std::string& name) 
       "Black: equal; orange: mean bias {:.3g} (model over reference) and twice the scatter {:.2g}, "
       "the reference's own ({:.2g}) taken out; {} points",
       family.bias, family.scatter, family.sigma_experiment, family.points);
-  if (family.left_out > 0) caption += fmt::format(", {} not above 0 left out", family.left_out);
+  if (family.left_out > 0)
+    caption +=
+        fmt::format(", {} not above 0 by more than their uncertainty left out", family.left_out);
   if (merges) caption += fmt::format(", one marker for all within {} mm", cell_width);
   return drawn(canvas, name, title, caption + ".");
 }

@@ -124,7 +124,7 @@ std::string table_of(const ValidationReport& report) {
   const auto keys = check_keys(report.verdicts);
   for (std::size_t k = 0; k < report.verdicts.size(); ++k) {
     const auto& v = report.verdicts[k];
-    const bool skipped = v.outcome == Outcome::skipped;
+    const bool has_value = v.outcome != Outcome::skipped && std::isfinite(v.metric.value);
     table += fmt::format(
         "<tr><td>{}</td><th scope=\"row\"><a href=\"#check{}\">{}</a></th><td "
         "class=\"run\">{}</td><td class=\"against\">{}</td>"
@@ -132,9 +132,9 @@ std::string table_of(const ValidationReport& report) {
         "<td class=\"number\">{} {}</td>",
         badge(v.outcome), k + 1, escaped(where(v)), escaped(v.run),
         breakable(escaped(reference_name(v).empty() ? "–" : reference_name(v))),
-        escaped(v.check.metric), skipped ? "–" : in_digits(v.metric.value, 3),
-        skipped ? "–"
-                : fmt::format("{} to {}", in_digits(v.metric.lo, 3), in_digits(v.metric.hi, 3)),
+        escaped(v.check.metric), has_value ? in_digits(v.metric.value, 3) : "–",
+        has_value ? fmt::format("{} to {}", in_digits(v.metric.lo, 3), in_digits(v.metric.hi, 3))
+                  : "–",
         v.small_is_good ? "≤" : "≥", in_digits(v.limit, 3));
     if (!report.earlier_name.empty())
       table += "<td class=\"before\">" + history_of(v, keys[k], report) + "</td>";
@@ -154,7 +154,8 @@ std::string problems_of(std::span<const analysis::RunResult> runs) {
 }
 
 std::string counts_of(std::span<const Verdict> verdicts) {
-  std::string text = fmt::format("<p>{} checks:", verdicts.size());
+  std::string text =
+      fmt::format("<p>{} check{}:", verdicts.size(), verdicts.size() == 1 ? "" : "s");
   for (const auto outcome :
        {Outcome::holds, Outcome::does_not_hold, Outcome::undecided, Outcome::skipped}) {
     const auto n = std::count_if(verdicts.begin(), verdicts.end(),
@@ -173,7 +174,8 @@ std::string provenance_of(const validation::Curve& curve) {
   };
   add(about.citation);
   add(about.doi.empty() ? "" : "doi " + about.doi);
-  add(about.method.empty() ? about.kind : about.kind + ", " + about.method);
+  add(about.kind.empty() || about.method.empty() ? about.kind + about.method
+                                                 : about.kind + ", " + about.method);
   add(about.source);
   add(about.processing);
   return text;

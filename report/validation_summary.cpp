@@ -135,7 +135,7 @@ std::string junit_text(std::span<const Verdict> verdicts, const std::string& tit
 std::string markdown_text(std::span<const analysis::RunResult> runs,
                           std::span<const Verdict> verdicts, const std::string& title) {
   std::string text = fmt::format(
-      "## {}\n\n{} checks: {} hold, {} do not hold, {} undecided, {} skipped\n\n"
+      "## {}\n\nChecks: {}, of which {} hold, {} do not hold, {} undecided, {} skipped\n\n"
       "| verdict | run | check | why |\n|---|---|---|---|\n",
       cell(title), verdicts.size(), count(verdicts, Outcome::holds),
       count(verdicts, Outcome::does_not_hold), count(verdicts, Outcome::undecided),

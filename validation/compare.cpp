@@ -152,6 +152,12 @@ std::vector<CurvePoint> turned_round(const Sampled& result, std::vector<CurvePoi
   return points;
 }
 
+bool ComparedPoint::has_logarithm() const {
+  constexpr double coverage_factor = 1.96;
+  return result > coverage_factor * std::hypot(u_result, u_interpolation) &&
+         reference > coverage_factor * std::max(u_reference, away());
+}
+
 Comparison compare(const Sampled& all, const Curve& reference, std::size_t least) {
   if (all.y.unit != reference.y.unit || (!all.is_scalar && all.x.unit != reference.x.unit))
     throw InputError("{}: {} against {}: expected the units of the result, {} against {}",

@@ -42,6 +42,9 @@ struct ComparedPoint {
   double u_reference_mean() const;
   /// u_val of ASME V&V 20 (2009), eq. 1-5-4.
   double u_validation() const;
+  /// Whether result and reference are above 0 by more than their 95 % uncertainty: others have no
+  /// logarithm, or none with an error to speak of.
+  bool has_logarithm() const;
 };
 
 struct Comparison {

@@ -67,18 +67,16 @@ double mean_square(const Comparison& comparison, F&& f) {
   return sum / static_cast<double>(comparison.points.size());
 }
 
-/// Mean square, over the points that have a logarithm, of the reference's relative uncertainty and
-/// of the result's, from its time average and from its interpolation.
+/// Mean square of the reference's relative uncertainty and of the result's, from its time average
+/// and from its interpolation.
 double relative_noise(const Comparison& comparison, bool of_average, bool of_interpolation) {
-  double sum = 0, count = 0;
+  double sum = 0;
   for (const auto& point : comparison.points) {
-    if (!(point.result > 0 && point.reference > 0)) continue;
     const double u =
         std::hypot(of_average ? point.u_result : 0, of_interpolation ? point.u_interpolation : 0);
     sum += std::pow(u / point.result, 2) + std::pow(point.u_reference_mean() / point.reference, 2);
-    count += 1;
   }
-  return sum / std::max(1., count);
+  return sum / static_cast<double>(comparison.points.size());
 }
 
 std::vector<double> ranks(std::span<const double> values) {
@@ -96,7 +94,7 @@ std::vector<double> ranks(std::span<const double> values) {
   return rank;
 }
 
-/// Of ln(result / reference), where both are above 0.
+/// Of ln(result / reference), where both were drawn above 0.
 struct Logarithms {
   double count = 0, mean = 0, variance = 0;
 
@@ -267,6 +265,14 @@ double noise_of(const Metric& metric, const Comparison& comparison) {
   return metric.of_logarithms ? relative_noise(comparison, true, true) : 0;
 }
 
+/// Of a metric of logarithms: the points that have one.
+Comparison judged_by(const Metric& metric, Comparison comparison) {
+  if (metric.of_logarithms)
+    std::erase_if(comparison.points,
+                  [](const ComparedPoint& point) { return !point.has_logarithm(); });
+  return comparison;
+}
+
 Perturbed as_seen(const Comparison& comparison) {
   Perturbed curves;
   for (const auto& point : comparison.points) {
@@ -314,13 +320,13 @@ const Metric& find_metric(const std::string& name) {
                    readers::nearest_name(name, names));
 }
 
-MetricValue evaluate(const Metric& metric, const Comparison& comparison) {
+MetricValue evaluate(const Metric& metric, const Comparison& of_all) {
+  const auto comparison = judged_by(metric, of_all);
   const auto seen = as_seen(comparison);
   if (metric.per_mean && mean(seen.reference) == 0)
     throw InputError("{}: the mean of the reference is 0: expected a metric in the quantity's unit",
                      metric.name);
-  if (metric.of_logarithms &&
-      Logarithms(seen.result, seen.reference).count < static_cast<double>(metric.least_points))
+  if (comparison.points.size() < metric.least_points)
     throw InputError("{}: expected {} points at which result and reference are above 0",
                      metric.name, metric.least_points);
   if (metric.name == "e over u")

@@ -28,7 +28,7 @@ struct Metric {
   bool small_is_good = true;  ///< false: the limit is a lower one (correlation)
   bool per_mean = true;       ///< in units of m; needs m != 0
   std::size_t least_points = 1;
-  bool of_logarithms = false;   ///< only of points at which result and reference are above 0
+  bool of_logarithms = false;   ///< only of points that have one
   bool of_differences = false;  ///< between points of a curve: errors common to all cancel
 };
 

@@ -62,12 +62,29 @@ std::string what_would_settle(const Verdict& verdict) {
 }
 
 /// Points that a metric of logarithms leaves out.
-std::ptrdiff_t without_logarithm(const Verdict& verdict) {
+std::size_t without_logarithm(const Verdict& verdict) {
   const auto& points = verdict.comparison.points;
   if (points.empty() || !find_metric(verdict.check.metric).of_logarithms) return 0;
-  return std::count_if(points.begin(), points.end(), [](const ComparedPoint& point) {
-    return !(point.result > 0 && point.reference > 0);
+  return static_cast<std::size_t>(
+      std::count_if(points.begin(), points.end(),
+                    [](const ComparedPoint& point) { return !point.has_logarithm(); }));
+}
+
+/// Uncertainties that leave too few points a logarithm: nothing can be said, which is no error of
+/// the study. Values that are not above 0 are one, see evaluate().
+bool leaves_too_few_logarithms(const Metric& metric, Verdict& verdict) {
+  const auto& points = verdict.comparison.points;
+  const auto positive = std::count_if(points.begin(), points.end(), [](const ComparedPoint& point) {
+    return point.result > 0 && point.reference > 0;
   });
+  const std::size_t left = points.size() - without_logarithm(verdict);
+  if (left >= metric.least_points || positive < std::ptrdiff_t(metric.least_points)) return false;
+  verdict.metric.value = verdict.metric.lo = verdict.metric.hi = std::nan("");
+  verdict.outcome = Outcome::undecided;
+  verdict.reason = fmt::format(
+      "{}: {} of {} points are above 0 by more than their uncertainty, expected {} at least",
+      metric.name, left, points.size(), metric.least_points);
+  return true;
 }
 
 /// `why`: besides an interval that holds the limit, what keeps the check from being decided.
@@ -81,8 +98,9 @@ std::string reason_of(const Verdict& verdict, const std::string& why = "") {
     text += fmt::format("; at {} more the result has no interval, and is not compared",
                         verdict.comparison.without_error.size());
   if (const auto without = without_logarithm(verdict); without > 0)
-    text += fmt::format("; {} of {} points have no logarithm", without,
-                        verdict.comparison.points.size());
+    text += fmt::format(
+        "; {} of {} points are not above 0 by more than their uncertainty, and have no logarithm",
+        without, verdict.comparison.points.size());
   const auto& of_profile = verdict.result.at;
   if (find_shape(verdict.check.metric) != nullptr && verdict.metric.points < of_profile.size())
     text += fmt::format("; {} of {} points of the profile have no value, or no interval",
@@ -146,6 +164,7 @@ bool judge_errors(Verdict& verdict) {
   const auto& metric = find_metric(verdict.check.metric);
   verdict.small_is_good = metric.small_is_good;
   verdict.comparison = compare(verdict.result, verdict.reference, metric.least_points);
+  if (leaves_too_few_logarithms(metric, verdict)) return verdict.comparison.mirrored;
   verdict.metric = evaluate(metric, verdict.comparison);
   verdict.outcome = judge(verdict.metric, verdict.limit, metric.small_is_good);
   std::string why;

@@ -138,6 +138,22 @@ class Validate(unittest.TestCase):
             self.assertEqual('run "a": dp:' in done.stdout, said != "", done.stdout)
             self.assertIn(said, done.stdout)
 
+    def test_names_of_any_letters_are_drawn_as_they_are(self):
+        label, name = "Lauf <1> & \"größe\" 温度 ]]>", "T_gas {x} ^2 @ &<b> ]]>"
+        with open(self.series([0, 1, 2], [99, 101, 100]), "r+") as file:
+            study = file.read().replace('label = "a"', "label = " + json.dumps(label, ensure_ascii=False))
+            file.seek(0)
+            file.write(study.replace("series: dp", "series: " + name))
+        with open(self.folder + "/a/tables/series.csv", "r+") as file:
+            rows = file.read().replace("dp,", name + ",")
+            file.seek(0)
+            file.write(rows)
+        self.assertEqual(self.validate(self.folder + "/study.toml").returncode, 0)
+        self.assertIn(label, xml.parse(self.folder + "/out/junit.xml").getroot()[0][0].get("classname"))
+        picture = "".join(xml.parse(self.folder + "/out/checks/check_01.svg").getroot().itertext())
+        for words in (label, name):
+            self.assertIn(words, picture.replace("\u200b", "").replace("\n", ""))
+
     def test_a_study_that_is_named_as_its_curve_is_told_from_a_sidecar(self):
         study = self.study(['quantity = "axial holdup"\nagainst = "study.csv"\nmetric = "max error"\nlimit = 1'])
         with open(self.folder + "/study.csv", "w") as file:

@@ -78,6 +78,16 @@ TEST(Metrics, ModelBiasAndScatterAreThoseOfTheFactor) {
   EXPECT_THROW(value("model scatter", comparison({1, -1, 1}, {1, 1, 1})), InputError);
 }
 
+TEST(Metrics, OfTheFactorLeaveOutWhatIsNotToldFromZero) {
+  // A result that is right but for a factor of 1.1; where the reference is 1e-5 its relative
+  // uncertainty of 2,000 would make a bias of e^-100,000.
+  const auto c = comparison({1.1, 2.2, 1.1e-5, 1.1, 2.2}, {1, 2, 1e-5, 1, 2}, 0, .02);
+  const auto bias = evaluate(find_metric("model bias"), c);
+  EXPECT_NEAR(bias.value, .1, 2e-3);
+  EXPECT_LT(bias.hi, .16);
+  EXPECT_EQ(bias.points, 4U);
+}
+
 TEST(Intervals, OfALargestErrorAddTheErrorOfTheMeanThatScalesIt) {
   // Errors common to all points of the reference: E / m = R / m - 1 errs by u R / m^2.
   const auto found = evaluate(find_metric("relative max error"), comparison({3, 3}, {2, 2}, 0, .1));

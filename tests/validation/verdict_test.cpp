@@ -148,6 +148,14 @@ TEST(Verdicts, OfPlacesOfClustersAreOfTheWindowAndOfSnapshotsThatKnowEachOther) 
   EXPECT_DOUBLE_EQ(sample(clusters, {.quantity = "cluster position"}).value[2], 20);
 }
 
+TEST(Verdicts, OfAFactorUnderInflatedUncertaintiesAreUndecided) {
+  const auto check = against(.075, "model bias", .5);
+  const auto vague = verdict_of(check, run("a", 1, .5));
+  EXPECT_EQ(vague.outcome, Outcome::undecided);
+  EXPECT_NE(vague.reason.find("0 of 1 points are above 0"), std::string::npos) << vague.reason;
+  EXPECT_THROW(verdict_of(check, run("a", -1, .001)), InputError);
+}
+
 TEST(Verdicts, ThatAreTooVagueStillCountWhatLiesOutside) {
   auto check = against(.075, "e over u", 4);
   check.number_u = .02;
