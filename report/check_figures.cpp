@@ -18,6 +18,7 @@ namespace {
 
 constexpr double coverage_factor = 1.96;
 constexpr double width = 110, left = 19, right = 4, bottom = 11;  // [mm]
+constexpr double end_margin = 0.02;                               // of the range of the data
 constexpr double main_height = 46, error_height = 20, gap = 4;
 constexpr const char* data_style = "pt 7 ps 0.35 lc rgb '#000000'";
 constexpr const char* range_style = "lw 0.8 lc rgb '#000000'";  // columns touch: 0.8 px of 0.26 mm
@@ -96,7 +97,9 @@ Layout layout_of(const Verdict& verdict, std::span<const Estimate> result, bool 
   const double lower = with_errors ? error_height + gap : 0;
   layout.main = {
       .left = left, .bottom = bottom + lower, .width = width - left - right, .height = main_height};
-  layout.main.x = exact_axis(x.lo * unit.factor, x.hi * unit.factor, 7);
+  // Markers and bars at the ends stand free of the frame.
+  const double margin = end_margin * (x.hi - x.lo);
+  layout.main.x = exact_axis((x.lo - margin) * unit.factor, (x.hi + margin) * unit.factor, 7);
   layout.main.y = rounded_axis(y.lo, y.hi, 6);
   const bool has_axis = !verdict.result.is_scalar;
   layout.main.x_numbers = !with_errors && has_axis;
@@ -322,7 +325,12 @@ Figure family_figure(const validation::Family& family, const std::string& name) 
       range.add(point.result);
       range.add(point.reference);
     }
-  if (range.lo > 0 && range.lo < 0.4 * range.hi) range.lo = 0;
+  const double margin = end_margin * (range.hi - range.lo);
+  range.hi += margin;
+  if (range.lo > 0 && range.lo < 0.4 * range.hi)
+    range.lo = 0;
+  else
+    range.lo -= margin;
   const auto names = names_in(family);
   std::vector<std::string> legend_of;  // each name once
   for (const auto& each : names)
