@@ -125,6 +125,7 @@ std::string table_of(const ValidationReport& report) {
   for (std::size_t k = 0; k < report.verdicts.size(); ++k) {
     const auto& v = report.verdicts[k];
     const bool has_value = v.outcome != Outcome::skipped && std::isfinite(v.metric.value);
+    const int digits = digits_of(v);
     table += fmt::format(
         "<tr><td>{}</td><th scope=\"row\"><a href=\"#check{}\">{}</a></th><td "
         "class=\"run\">{}</td><td class=\"against\">{}</td>"
@@ -132,10 +133,11 @@ std::string table_of(const ValidationReport& report) {
         "<td class=\"number\">{} {}</td>",
         badge(v.outcome), k + 1, escaped(where(v)), escaped(v.run),
         breakable(escaped(reference_name(v).empty() ? "–" : reference_name(v))),
-        escaped(v.check.metric), has_value ? in_digits(v.metric.value, 3) : "–",
-        has_value ? fmt::format("{} to {}", in_digits(v.metric.lo, 3), in_digits(v.metric.hi, 3))
+        escaped(v.check.metric), has_value ? in_digits(v.metric.value, digits) : "–",
+        has_value ? fmt::format("{} to {}", in_digits(v.metric.lo, digits),
+                                in_digits(v.metric.hi, digits))
                   : "–",
-        v.small_is_good ? "≤" : "≥", in_digits(v.limit, 3));
+        v.small_is_good ? "≤" : "≥", in_digits(v.limit, digits));
     if (!report.earlier_name.empty())
       table += "<td class=\"before\">" + history_of(v, keys[k], report) + "</td>";
     table += "</tr>\n";

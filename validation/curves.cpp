@@ -11,7 +11,6 @@
 
 #include "analysis/csv.hpp"
 #include "readers/toml_table.hpp"
-#include "validation/quantity.hpp"
 #include "validation/sidecar.hpp"
 
 namespace bedscope::validation {
@@ -274,15 +273,15 @@ std::string choices(const CurveSet& set) {
 /// For each parameter what its rows must hold: chosen, or given by the check's place.
 std::vector<std::string> wanted_values(const CurveSet& set, const std::string& selection,
                                        std::map<std::string, std::string> chosen,
-                                       const std::map<std::string, double>& at) {
+                                       const Place& place) {
   std::vector<std::string> wanted;
   for (const auto& [title, values] : set.parameters) {
     std::string value;
     if (const auto named = chosen.find(title.name); named != chosen.end()) {
       value = named->second;
       chosen.erase(named);
-    } else if (const auto place = at.find(title.name); place != at.end()) {
-      value = fmt::format("{}", place->second);
+    } else if (const auto at = place.at.find(title.name); at != place.at.end()) {
+      value = fmt::format("{}", at->second);
     } else {
       wanted.emplace_back();  // any, if the rows that are left agree
       continue;
@@ -295,10 +294,11 @@ std::vector<std::string> wanted_values(const CurveSet& set, const std::string& s
   }
   std::set<std::string> parameters;
   for (const auto& parameter : set.parameters) parameters.insert(parameter.title.name);
-  require_place_keys(at, parameters);
+  require_place_keys(place, parameters);
   if (!chosen.empty())
-    throw InputError("{}: expected a choice among {}, found {}", selection,
-                     set.parameters.empty() ? "nothing" : choices(set), chosen.begin()->first);
+    throw InputError("{}: expected a choice among {}, found {}{}", selection,
+                     set.parameters.empty() ? "nothing" : choices(set), chosen.begin()->first,
+                     chosen.begin()->first == set.x.name ? ", which is the curve's abscissa" : "");
   return wanted;
 }
 
@@ -366,7 +366,7 @@ Curves Curves::open(std::span<const std::string> folders, const fs::path& base) 
   return curves;
 }
 
-Curve Curves::curve(const std::string& selection, const std::map<std::string, double>& at) const {
+Curve Curves::curve(const std::string& selection, const Place& place) const {
   const auto [name, chosen] = parse_selection(selection);
   const auto found =
       std::find_if(sets_.begin(), sets_.end(),
@@ -390,7 +390,7 @@ Curve Curves::curve(const std::string& selection, const std::map<std::string, do
   if (set.x.name.empty())
     throw InputError("{}: a table of values, not a curve: expected an abscissa and an ordinate",
                      name);
-  return read_curve(set, selection, wanted_values(set, selection, chosen, at));
+  return read_curve(set, selection, wanted_values(set, selection, chosen, place));
 }
 
 }  // namespace bedscope::validation

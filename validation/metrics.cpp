@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <numeric>
 #include <set>
@@ -329,6 +330,10 @@ MetricValue evaluate(const Metric& metric, const Comparison& of_all) {
   if (comparison.points.size() < metric.least_points)
     throw InputError("{}: expected {} points at which result and reference are above 0",
                      metric.name, metric.least_points);
+  if (metric.name == "rank correlation" &&
+      std::ranges::adjacent_find(seen.reference, std::not_equal_to<>()) == seen.reference.end())
+    throw InputError("{}: the reference is constant: expected one that rises or falls",
+                     metric.name);
   if (metric.name == "e over u")
     for (const auto& point : comparison.points)
       if (!(point.u_validation() > 0))

@@ -182,7 +182,7 @@ Curve reference_of(const Check& check, const RunResult& run, const Sampled& resu
     case Kind::curve:
       break;
   }
-  return reduced(curves.curve(name, check.place.at), result);
+  return reduced(curves.curve(name, check.place), result);
 }
 
 void require_reference(const Check& check, std::span<const std::string> labels,
@@ -195,10 +195,10 @@ void require_reference(const Check& check, std::span<const std::string> labels,
     if (!check.run.empty()) require_run(check.run);
     const auto [kind, name] = source_of(check);
     if (kind == Kind::curve) {
-      curves.curve(name, check.place.at);  // which may have keys of its own
+      curves.curve(name, check.place);  // which may have keys of its own
       return;
     }
-    require_place_keys(check.place.at);
+    require_place_keys(check.place);
     if (kind == Kind::theory) require_theory(name, check.with);
     if (kind == Kind::baseline) baseline_folder(name, study);
     if (kind == Kind::run) {

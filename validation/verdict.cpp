@@ -19,10 +19,11 @@ constexpr double coverage_factor = 1.96;
 
 /// How a value stands to its limit, in words.
 std::string standing(const Verdict& verdict) {
-  return fmt::format("{} {} [{}, {}] against {} {}", verdict.check.metric,
-                     in_digits(verdict.metric.value, 3), in_digits(verdict.metric.lo, 3),
-                     in_digits(verdict.metric.hi, 3),
-                     verdict.small_is_good ? "at most" : "at least", in_digits(verdict.limit, 3));
+  const int digits = digits_of(verdict);
+  return fmt::format(
+      "{} {} [{}, {}] against {} {}", verdict.check.metric, in_digits(verdict.metric.value, digits),
+      in_digits(verdict.metric.lo, digits), in_digits(verdict.metric.hi, digits),
+      verdict.small_is_good ? "at most" : "at least", in_digits(verdict.limit, digits));
 }
 
 /// An average over `longer` times the time.
@@ -222,11 +223,25 @@ void decide_nothing_by_one_of_many(const RunResult& run, Verdict& verdict) {
           all, run.window.from);
 }
 
+/// An instant that a check asks for, of a run that averages over many.
+void say_what_an_instant_is(const RunResult& run, Verdict& verdict) {
+  const auto& at = verdict.check.place.at;
+  const auto asked = at.find("time");
+  if (asked == at.end() || run.window.snapshots < 2) return;
+  const auto [from, to] = std::pair(run.window.from, run.window.to);
+  if (!(asked->second >= from && asked->second <= to))
+    throw InputError("at.time = {} s: the run averages over {} to {} s", asked->second, from, to);
+  verdict.assumptions.push_back(
+      fmt::format("run \"{}\": the average over {} to {} s stands for at.time = {} s", run.label,
+                  from, to, asked->second));
+}
+
 Verdict judged_on(const Check& check, const RunResult& run, std::span<const RunResult> runs,
                   const Curves& curves, const std::string& study) {
   Verdict verdict{.check = check, .run = run.label, .limit = check.limit.value_or(0)};
   verdict.result = sample(run, check.place);
   verdict.assumptions = verdict.result.notes;
+  say_what_an_instant_is(run, verdict);
   if (!verdict.result.error_known)
     verdict.assumptions.push_back(without_intervals(run, verdict.result));
   if (const auto* shape = find_shape(check.metric)) {
@@ -264,6 +279,19 @@ std::string in_digits(double value, int digits) {
   if (text.find("e+") == text.npos || !(std::abs(value) < 1e6)) return text;
   const double unit = std::pow(10, std::floor(std::log10(std::abs(value))) + 1 - digits);
   return fmt::format("{:.0f}", std::round(value / unit) * unit);
+}
+
+int digits_of(const Verdict& verdict) {
+  const auto rounded = [](double value, int digits) { return std::stod(in_digits(value, digits)); };
+  constexpr int most = 17;  // which tell any two doubles apart
+  for (int digits = 3; digits < most; ++digits) {
+    const MetricValue shown{.lo = rounded(verdict.metric.lo, digits),
+                            .hi = rounded(verdict.metric.hi, digits)};
+    if (judge(shown, rounded(verdict.limit, digits), verdict.small_is_good) ==
+        judge(verdict.metric, verdict.limit, verdict.small_is_good))
+      return digits;
+  }
+  return most;
 }
 
 std::string reference_name(const Verdict& verdict) {

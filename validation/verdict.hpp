@@ -36,6 +36,10 @@ struct Verdict {
 /// A number for people, rounded to so many digits; with an exponent only from a million on.
 std::string in_digits(double value, int digits);
 
+/// Digits in which a verdict's interval and limit are told apart as they were judged: three, or as
+/// many as it takes.
+int digits_of(const Verdict& verdict);
+
 /// What was or, where it is missing, should have been the reference; empty for shapes.
 std::string reference_name(const Verdict& verdict);
 

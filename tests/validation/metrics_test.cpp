@@ -53,6 +53,7 @@ TEST(Metrics, RankCorrelationKnowsTies) {
   // By hand: ranks 1 2.5 2.5 4 and 1 2 3 4 give 9 / sqrt(9 * 10) ... = 4.5 / sqrt(4.5 * 5).
   EXPECT_NEAR(value("rank correlation", comparison({1, 2, 2, 4}, {1, 2, 3, 4})),
               4.5 / std::sqrt(4.5 * 5), 1e-12);
+  EXPECT_THROW(value("rank correlation", comparison({1, 2, 3, 4}, {1, 1, 1, 1})), InputError);
 }
 
 TEST(Metrics, NamesAndZeroMeansAreToldApart) {

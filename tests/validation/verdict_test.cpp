@@ -156,6 +156,24 @@ TEST(Verdicts, OfAFactorUnderInflatedUncertaintiesAreUndecided) {
   EXPECT_THROW(verdict_of(check, run("a", -1, .001)), InputError);
 }
 
+TEST(Verdicts, JustBesideTheirLimitAreShownInDigitsThatTellThem) {
+  const auto beside = verdict_of(against(1, "max error", .5), run("a", 20 + 1e-7, 0));
+  EXPECT_EQ(beside.outcome, Outcome::does_not_hold);
+  EXPECT_NE(beside.reason.find("0.50000001 ["), std::string::npos) << beside.reason;
+  const auto within = verdict_of(against(1, "max error", .6), run("a", 20, 0));
+  EXPECT_NE(within.reason.find("0.5 [0.5, 0.5]"), std::string::npos) << within.reason;
+}
+
+TEST(Verdicts, OfAnInstantSayWhatStandsForIt) {
+  auto check = against(.075, "relative bias", .5);
+  check.place.at["time"] = 7;
+  const auto found = verdict_of(check, run("a", 1, .001));  // 5 to 15 s
+  ASSERT_FALSE(found.assumptions.empty());
+  EXPECT_NE(found.assumptions[0].find("5 to 15 s stands for at.time = 7 s"), std::string::npos);
+  check.place.at["time"] = 17;
+  EXPECT_THROW(verdict_of(check, run("a", 1, .001)), InputError);
+}
+
 TEST(Verdicts, ThatAreTooVagueStillCountWhatLiesOutside) {
   auto check = against(.075, "e over u", 4);
   check.number_u = .02;
