@@ -17,8 +17,8 @@ using validation::Verdict;
 namespace {
 
 constexpr double coverage_factor = 1.96;
-constexpr double width = 110, left = 19, right = 4, bottom = 11;  // [mm]
-constexpr double end_margin = 0.02;                               // of the range of the data
+constexpr double width = 110, right = 4, bottom = 11;  // [mm]
+constexpr double end_margin = 0.02;                    // of the range of the data
 constexpr double main_height = 46, error_height = 20, gap = 4;
 constexpr const char* data_style = "pt 7 ps 0.35 lc rgb '#000000'";
 constexpr const char* range_style = "lw 0.8 lc rgb '#000000'";  // columns touch: 0.8 px of 0.26 mm
@@ -71,6 +71,18 @@ struct Layout {
   double x_factor = 1;
 };
 
+/// From the frame to the middle of the y label, past the numbers of the axis [mm].
+double label_gap(const Axis& axis) {
+  constexpr double least = 14, around = 4;  // half a line of text, and a space on both sides
+  double widest = 0;
+  for (const double number : {axis.lo, axis.hi})
+    widest = std::max(widest, text_width(fmt::format("{:.{}f}", number, axis.decimals)));
+  return std::max(least, widest + around);
+}
+
+/// The room left of a panel: for half a line of text and a margin [mm].
+double left_of(double label_gap) { return label_gap + 5; }
+
 Layout layout_of(const Verdict& verdict, std::span<const Estimate> result, bool with_errors) {
   Range x, y, e;
   for (const double at : verdict.result.at) x.add(at);
@@ -81,6 +93,10 @@ Layout layout_of(const Verdict& verdict, std::span<const Estimate> result, bool 
   }
   add_estimates(y, result);
   if (y.lo > 0 && y.lo < 0.4 * y.hi) y.lo = 0;
+  // Markers and bars at the ends stand free of the frame.
+  const double margin_x = end_margin * (x.hi - x.lo), margin_y = end_margin * (y.hi - y.lo);
+  if (y.lo != 0) y.lo -= margin_y;
+  y.hi += margin_y;
   // Errors of rounding are a line at 0.
   const double negligible = 1e-3 * std::max(std::abs(y.lo), std::abs(y.hi));
   e.add(-negligible);
@@ -95,21 +111,21 @@ Layout layout_of(const Verdict& verdict, std::span<const Estimate> result, bool 
   Layout layout;
   layout.x_factor = unit.factor;
   const double lower = with_errors ? error_height + gap : 0;
-  layout.main = {
-      .left = left, .bottom = bottom + lower, .width = width - left - right, .height = main_height};
-  // Markers and bars at the ends stand free of the frame.
-  const double margin = end_margin * (x.hi - x.lo);
-  layout.main.x = exact_axis((x.lo - margin) * unit.factor, (x.hi + margin) * unit.factor, 7);
+  layout.main = {.bottom = bottom + lower, .height = main_height};
+  layout.main.x = exact_axis((x.lo - margin_x) * unit.factor, (x.hi + margin_x) * unit.factor, 7);
   layout.main.y = rounded_axis(y.lo, y.hi, 6);
+  const auto errors = rounded_axis(e.lo, e.hi, 4);
+  layout.main.y_label_gap = std::max(label_gap(layout.main.y), label_gap(errors));
+  layout.main.left = left_of(layout.main.y_label_gap);
+  layout.main.width = width - layout.main.left - right;
   const bool has_axis = !verdict.result.is_scalar;
   layout.main.x_numbers = !with_errors && has_axis;
   layout.main.y_label = literal(shortened(verdict.result.y.text(), main_height));
-  layout.main.y_label_gap = 14;
   layout.errors = layout.main;
   layout.errors.bottom = bottom;
   layout.errors.height = error_height;
   layout.errors.x_numbers = has_axis;
-  layout.errors.y = rounded_axis(e.lo, e.hi, 4);
+  layout.errors.y = errors;
   layout.errors.zero_line = true;
   layout.errors.y_label =
       literal(shortened(fmt::format("error [{}]", verdict.result.y.unit), error_height));
@@ -295,6 +311,7 @@ Figure check_figure(const Verdict& judged, const std::string& name) {
   if (!verdict.comparison.outside.empty() || !verdict.comparison.without_error.empty())
     entries.push_back({"", outside_style, "not compared (outside, or no interval)"});
   entries.push_back({fmt::format("lc rgb '{}' lw 1.3", result_colour), "", verdict.run});
+  const double left = layout.main.left;
   const double legend = Canvas::legend_height(entries, width - left) + 1;
   Canvas canvas(width, layout.main.bottom + main_height + 2 + legend);
   canvas.legend(entries, left, canvas.height() - 0.5, width - left);
@@ -345,16 +362,17 @@ Figure family_figure(const validation::Family& family, const std::string& name) 
     const auto style = style_of(each);
     entries.push_back({"", fmt::format("{} lc rgb '{}'", style.marker, style.colour), each});
   }
-  const double legend = Canvas::legend_height(entries, width - left) + 1;
-  Canvas canvas(width, bottom + side + 2 + legend);
-  canvas.legend(entries, left, canvas.height() - 0.5, width - left);
-  Panel panel{.left = left, .bottom = bottom, .width = side, .height = side};
+  Panel panel{.bottom = bottom, .width = side, .height = side};
   panel.x = panel.y = rounded_axis(range.lo, range.hi, 5);
+  panel.y_label_gap = label_gap(panel.y);
+  panel.left = left_of(panel.y_label_gap);
+  const double legend = Canvas::legend_height(entries, width - panel.left) + 1;
+  Canvas canvas(width, bottom + side + 2 + legend);
+  canvas.legend(entries, panel.left, canvas.height() - 0.5, width - panel.left);
   panel.x_label =
       literal(shortened(fmt::format("reference {} [{}]", family.quantity, family.unit), side));
   panel.y_label =
       literal(shortened(fmt::format("result {} [{}]", family.quantity, family.unit), side));
-  panel.y_label_gap = 14;
   canvas.open(panel);
   std::vector<std::string> layers;
   const auto ray = [&](double slope, const char* words) {

@@ -36,15 +36,17 @@ std::string in_time(double duration, double longer) {
 
 /// Who sets the uncertainty that a longer simulation leaves: the reference, or cells so coarse that
 /// the result is not known between them.
-std::string_view what_limits(const Comparison& comparison) {
+std::string_view what_limits(const Verdict& verdict) {
   double of_reference = 0, of_interpolation = 0;
-  for (const auto& point : comparison.points) {
+  for (const auto& point : verdict.comparison.points) {
     of_reference += point.u_reference_mean() * point.u_reference_mean();
     of_interpolation += point.u_interpolation * point.u_interpolation;
   }
-  return of_interpolation > of_reference
-             ? "no longer simulation can settle it, smaller cells might: interpolation between the "
-               "result's points is too uncertain"
+  if (of_interpolation > of_reference)
+    return "no longer simulation can settle it, smaller cells might: interpolation between the "
+           "result's points is too uncertain";
+  return verdict.check.against.starts_with("run:")
+             ? "a longer average of the run that it is judged by would settle it"
              : "the reference cannot settle it: its own uncertainty is too large";
 }
 
@@ -55,7 +57,7 @@ std::string what_would_settle(const Verdict& verdict) {
   // The wider side: the other one may end at 0, which no metric goes below.
   const double half_width = std::max(metric.hi - metric.value, metric.value - metric.lo);
   const double fixed = std::min(metric.fixed_half_width, half_width);
-  if (fixed >= distance) return std::string(what_limits(verdict.comparison));
+  if (fixed >= distance) return std::string(what_limits(verdict));
   const double longer =
       (half_width * half_width - fixed * fixed) / (distance * distance - fixed * fixed);
   if (longer > 1e4) return "the value is too near to the limit for any simulation to settle it";
@@ -133,7 +135,7 @@ bool too_uncertain(const Verdict& verdict, std::string& why) {
       "; 1.96 u_val reaches {:.2g} of the mean, above the accuracy of {:.2g} asked for: ",
       coverage_factor * largest / std::abs(mean), verdict.check.accuracy);
   if (!std::isfinite(longer))
-    why += what_limits(verdict.comparison);
+    why += what_limits(verdict);
   else
     why += in_time(verdict.result.duration, longer);
   return true;
