@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <set>
 
 #include "report/columns.hpp"
 #include "report/figure_parts.hpp"
@@ -42,6 +44,52 @@ Verdict widened(Verdict verdict) {
   verdict.result.u.resize(2, verdict.result.u.front());
   for (auto& point : verdict.reference.points) point.x = 0;
   for (auto& point : verdict.comparison.points) point.x = 0;
+  return verdict;
+}
+
+/// A power of ten in which numbers of this size are easy to read: 0 where they are as they stand.
+int exponent_of(double magnitude) {
+  if (!(magnitude > 0) || (magnitude >= 1e-4 && magnitude < 1e6)) return 0;
+  return 3 * static_cast<int>(std::floor(std::log10(magnitude) / 3));
+}
+
+/// "10⁻⁹ kg"; the unit alone for an exponent of 0.
+std::string unit_in(int exponent, const std::string& unit) {
+  if (exponent == 0) return unit;
+  static constexpr std::array<const char*, 10> digits{"⁰", "¹", "²", "³", "⁴",
+                                                      "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string text = exponent < 0 ? "10⁻" : "10";
+  for (const char digit : std::to_string(std::abs(exponent))) text += digits[digit - '0'];
+  return unit == "-" ? text : text + " " + unit;
+}
+
+double largest(const Verdict& verdict) {
+  double size = 0;
+  for (const double value : verdict.result.value)
+    if (std::isfinite(value)) size = std::max(size, std::abs(value));
+  for (const auto& point : verdict.reference.points) size = std::max(size, std::abs(point.y));
+  return size;
+}
+
+/// In a power of ten of its unit.
+Verdict scaled(Verdict verdict) {
+  const int exponent = exponent_of(largest(verdict));
+  if (exponent == 0) return verdict;
+  const double factor = std::pow(10, -exponent);
+  verdict.result.y.unit = unit_in(exponent, verdict.result.y.unit);
+  for (double& value : verdict.result.value) value *= factor;
+  for (double& u : verdict.result.u) u *= factor;
+  for (auto* points :
+       {&verdict.reference.points, &verdict.comparison.outside, &verdict.comparison.without_error})
+    for (auto& point : *points) {
+      point.y *= factor;
+      point.u_y *= factor;
+      point.u_y_down *= factor;
+    }
+  for (auto& point : verdict.comparison.points)
+    for (double* value : {&point.result, &point.reference, &point.u_result, &point.u_interpolation,
+                          &point.u_reference, &point.u_reference_away})
+      *value *= factor;
   return verdict;
 }
 
@@ -128,7 +176,7 @@ Layout layout_of(const Verdict& verdict, std::span<const Estimate> result, bool 
   layout.errors.y = errors;
   layout.errors.zero_line = true;
   layout.errors.y_label =
-      literal(shortened(fmt::format("error [{}]", verdict.result.y.unit), error_height));
+      literal(shortened(fmt::format("error [{}]", verdict.result.y.unit), error_height + gap));
   if (has_axis)
     (with_errors ? layout.errors : layout.main).x_label =
         literal(fmt::format("{} [{}]", verdict.result.x.name, unit.name));
@@ -274,9 +322,9 @@ std::string place_words(const Verdict& verdict) {
 }
 
 /// What the legend of a scatter plot calls its comparisons: by run, place and reference; by run
-/// alone where that would be a long list.
+/// alone where that would be a long list; nothing but their number where that is one, too.
 std::vector<std::string> names_in(const validation::Family& family) {
-  constexpr std::size_t long_list = 8;
+  constexpr std::size_t long_list = 8, too_long = 16;
   std::vector<std::string> names;
   for (const auto* verdict : family.verdicts) {
     auto name = verdict->run;
@@ -286,6 +334,9 @@ std::vector<std::string> names_in(const validation::Family& family) {
     }
     names.push_back(name);
   }
+  const std::set<std::string> different(names.begin(), names.end());
+  if (different.size() > too_long)
+    names.assign(names.size(), fmt::format("{} runs", different.size()));
   return names;
 }
 
@@ -299,7 +350,7 @@ std::string_view unit_of_place(std::string_view key) {
 Figure check_figure(const Verdict& judged, const std::string& name) {
   const auto title = place_words(judged);
   if (judged.outcome == validation::Outcome::skipped) return left_out(name, title, judged.reason);
-  const auto verdict = widened(judged);
+  const auto verdict = scaled(widened(judged));
   const bool with_errors = !verdict.comparison.points.empty();
   const auto result = estimates_of(verdict.result);
   auto layout = layout_of(verdict, result, with_errors);
@@ -336,11 +387,16 @@ Figure family_figure(const validation::Family& family, const std::string& name) 
   const auto title = "All of " + family.quantity;
   if (family.points < 3) return left_out(name, title, "fewer than three points above 0");
   constexpr double side = 70;
+  double size = 0;
+  for (const auto* verdict : family.verdicts) size = std::max(size, largest(*verdict));
+  const int exponent = exponent_of(size);
+  const double factor = std::pow(10, -exponent);
+  const auto unit = unit_in(exponent, family.unit);
   Range range;
   for (const auto* verdict : family.verdicts)
     for (const auto& point : verdict->comparison.points) {
-      range.add(point.result);
-      range.add(point.reference);
+      range.add(factor * point.result);
+      range.add(factor * point.reference);
     }
   const double margin = end_margin * (range.hi - range.lo);
   range.hi += margin;
@@ -369,10 +425,8 @@ Figure family_figure(const validation::Family& family, const std::string& name) 
   const double legend = Canvas::legend_height(entries, width - panel.left) + 1;
   Canvas canvas(width, bottom + side + 2 + legend);
   canvas.legend(entries, panel.left, canvas.height() - 0.5, width - panel.left);
-  panel.x_label =
-      literal(shortened(fmt::format("reference {} [{}]", family.quantity, family.unit), side));
-  panel.y_label =
-      literal(shortened(fmt::format("result {} [{}]", family.quantity, family.unit), side));
+  panel.x_label = literal(shortened(fmt::format("reference {} [{}]", family.quantity, unit), side));
+  panel.y_label = literal(shortened(fmt::format("result {} [{}]", family.quantity, unit), side));
   canvas.open(panel);
   std::vector<std::string> layers;
   const auto ray = [&](double slope, const char* words) {
@@ -393,7 +447,7 @@ Figure family_figure(const validation::Family& family, const std::string& name) 
   for (std::size_t k = 0; k < family.verdicts.size(); ++k) {
     std::vector<std::pair<double, double>> points;
     for (const auto& point : family.verdicts[k]->comparison.points)
-      points.emplace_back(point.reference, point.result);
+      points.emplace_back(factor * point.reference, factor * point.result);
     merges = merges || points.size() > most_single;
     std::string rows;
     for (const auto& [reference, result] : told_apart(points, panel))

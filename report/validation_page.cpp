@@ -80,6 +80,7 @@ std::string history_of(const Verdict& verdict, const std::string& key,
 
 /// What the style sheet of all pages leaves to this one: a table of words that fits on paper.
 constexpr std::string_view own_style = R"(<style>
+  h1, h2, p, li, pre { overflow-wrap: anywhere; }
   .checks td, .checks th { text-align: left; white-space: normal; overflow-wrap: anywhere; min-width: 0; }
   .checks thead th { overflow-wrap: normal; }
   .checks .run { min-width: 4.5rem; }
@@ -262,8 +263,9 @@ std::string origins(const ValidationReport& report) {
       BEDSCOPE_VERSION, escaped(machine()));
   std::set<std::string> curves;
   for (const auto& run : report.runs)
-    text += fmt::format("<p class=\"note\">{}: {} files, hash {}.</p>\n", escaped(run.label),
-                        run.inputs.size(), analysis::fingerprint(run.inputs));
+    text += fmt::format("<p class=\"note\">{}: {} file{}, hash {}.</p>\n", escaped(run.label),
+                        run.inputs.size(), run.inputs.size() == 1 ? "" : "s",
+                        analysis::fingerprint(run.inputs));
   for (const auto& verdict : report.verdicts)
     if (!verdict.reference.path.empty()) curves.insert(verdict.reference.path);
   for (const auto& path : curves)

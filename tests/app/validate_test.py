@@ -154,6 +154,24 @@ class Validate(unittest.TestCase):
         for words in (label, name):
             self.assertIn(words, picture.replace("\u200b", "").replace("\n", ""))
 
+    def test_figures_of_tiny_values_and_of_many_runs_can_be_read(self):
+        runs = ""
+        for k in range(20):
+            os.makedirs(f"{self.folder}/r{k}")
+            with open(f"{self.folder}/r{k}/axial_profile.csv", "w") as file:
+                file.write("z [m],holdup [-],holdup_ci95 [-]\n")
+                file.writelines(f"{z / 9},{(1 + z) * 1e-12},1e-15\n" for z in range(10))
+            runs += f'[[run]]\nlabel = "run {k}"\ntables = "r{k}"\n'
+        with open(self.folder + "/many.toml", "w") as file:
+            file.write(runs + '[[check]]\nquantity = "axial holdup"\nagainst = 5e-12\nmetric = "max error"\nlimit = 1\n')
+        self.assertEqual(self.validate(self.folder + "/many.toml").returncode, 0)
+        texts = {name: list(xml.parse(f"{self.folder}/out/checks/{name}.svg").getroot().itertext())
+                 for name in ("check_01", "quantity_01")}
+        for name, words in (("check_01", "axial holdup [10⁻¹²]"), ("check_01", "error [10⁻¹²]"),
+                            ("quantity_01", "20 runs"), ("quantity_01", "result axial holdup [10⁻¹²]")):
+            self.assertIn(words, [text.strip() for text in texts[name]])
+        self.assertNotIn("0.000", "".join(texts["check_01"]))
+
     def test_a_study_that_is_named_as_its_curve_is_told_from_a_sidecar(self):
         study = self.study(['quantity = "axial holdup"\nagainst = "study.csv"\nmetric = "max error"\nlimit = 1'])
         with open(self.folder + "/study.csv", "w") as file:
