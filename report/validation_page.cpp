@@ -203,11 +203,12 @@ std::string section_of(const ValidationReport& report, const Shown& panel, const
   const auto reference = reference_name(report.verdicts[panel.verdicts.front()]);
   std::string text = "<section>\n<h2>" + escaped(panel.figure.title) +
                      (reference.empty() ? "" : " against " + escaped(reference)) + "</h2>\n";
-  std::set<std::string> assumptions;
+  std::set<std::string> notes, assumptions;
   for (const std::size_t k : panel.verdicts) {
     const auto& verdict = report.verdicts[k];
     text += fmt::format("<p id=\"check{}\">{}: {}.</p>\n", k + 1, badge(verdict.outcome),
                         escaped(verdict.reason));
+    notes.insert(verdict.notes.begin(), verdict.notes.end());
     assumptions.insert(verdict.assumptions.begin(), verdict.assumptions.end());
   }
   const auto& first = report.verdicts[panel.verdicts.front()];
@@ -219,6 +220,7 @@ std::string section_of(const ValidationReport& report, const Shown& panel, const
         escaped(with_interval(point.reference, point.u_reference, first.result.y.unit)));
   }
   if (panel.figure.missing.empty()) text += picture_of(panel.figure, folder);
+  for (const auto& note : notes) text += "<p class=\"note\">Note: " + escaped(note) + ".</p>\n";
   for (const auto& assumption : assumptions)
     text += "<p class=\"note\">Assumed: " + escaped(assumption) + ".</p>\n";
   return text + "</section>\n";

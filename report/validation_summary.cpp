@@ -47,6 +47,7 @@ std::size_t count(std::span<const Verdict> verdicts, Outcome outcome) {
 /// The whole story of a check: GitLab shows the text of an element and not its message.
 std::string story_of(const Verdict& verdict) {
   std::string text = verdict.reason + "\n";
+  for (const auto& note : verdict.notes) text += "note: " + note + "\n";
   for (const auto& assumption : verdict.assumptions) text += "assumed: " + assumption + "\n";
   return text;
 }
@@ -87,6 +88,7 @@ Json check_json(const Verdict& verdict) {
       {"reason", verdict.reason},
       {"points", verdict.comparison.points.size()},
       {"points_outside", verdict.comparison.outside.size()},
+      {"notes", verdict.notes},
       {"assumptions", verdict.assumptions}};
 }
 

@@ -201,6 +201,12 @@ CurveSet read_set(const std::string& name, const std::string& path) {
   return set;
 }
 
+std::string trimmed(const std::string& text) {
+  const auto begin = text.find_first_not_of(' ');
+  if (begin == text.npos) return "";
+  return text.substr(begin, text.find_last_not_of(' ') + 1 - begin);
+}
+
 /// "name?U=5.55&height=0.8"
 std::pair<std::string, std::map<std::string, std::string>> parse_selection(
     const std::string& selection) {
@@ -214,7 +220,7 @@ std::pair<std::string, std::map<std::string, std::string>> parse_selection(
     if (equals == part.npos || equals == 0)
       throw InputError("{}: expected a selection such as \"?U=5.55&height=0.8\", found \"{}\"",
                        selection, part);
-    chosen[part.substr(0, equals)] = part.substr(equals + 1);
+    chosen[trimmed(part.substr(0, equals))] = trimmed(part.substr(equals + 1));
     at = end + 1;
   }
   return {selection.substr(0, question), chosen};

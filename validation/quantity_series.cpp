@@ -67,8 +67,9 @@ Sampled mean_of(const RunResult& run, const std::string& what, const Signal& sig
   if (mean.disagree) note("batch means and autocorrelation time disagree on the error");
   const auto drift = analysis::drift_of(signal.values);
   if (drift.significance > analysis::significant_drift)
-    note(fmt::format("drifts by {:.3g} over the window ({:.3g} standard errors): is it steady?",
-                     drift.change, drift.significance));
+    note(fmt::format(
+        "drifts by {:.3g} over the window ({:.3g} standard errors): it may not be steady",
+        drift.change, drift.significance));
   return sampled;
 }
 

@@ -233,7 +233,7 @@ void say_what_an_instant_is(const RunResult& run, Verdict& verdict) {
   const auto [from, to] = std::pair(run.window.from, run.window.to);
   if (!(asked->second >= from && asked->second <= to))
     throw InputError("at.time = {} s: the run averages over {} to {} s", asked->second, from, to);
-  verdict.assumptions.push_back(
+  verdict.notes.push_back(
       fmt::format("run \"{}\": the average over {} to {} s stands for at.time = {} s", run.label,
                   from, to, asked->second));
 }
@@ -242,7 +242,7 @@ Verdict judged_on(const Check& check, const RunResult& run, std::span<const RunR
                   const Curves& curves, const std::string& study) {
   Verdict verdict{.check = check, .run = run.label, .limit = check.limit.value_or(0)};
   verdict.result = sample(run, check.place);
-  verdict.assumptions = verdict.result.notes;
+  verdict.notes = verdict.result.notes;
   say_what_an_instant_is(run, verdict);
   if (!verdict.result.error_known)
     verdict.assumptions.push_back(without_intervals(run, verdict.result));

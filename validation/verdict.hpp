@@ -30,6 +30,7 @@ struct Verdict {
   Sampled result;
   Curve reference;                       ///< no points for shapes
   Comparison comparison;                 ///< no points for shapes and distributions
+  std::vector<std::string> notes;        ///< what else is to be known of the result
   std::vector<std::string> assumptions;  ///< uncertainties and orientations that nobody stated
 };
 

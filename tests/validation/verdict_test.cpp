@@ -168,8 +168,8 @@ TEST(Verdicts, OfAnInstantSayWhatStandsForIt) {
   auto check = against(.075, "relative bias", .5);
   check.place.at["time"] = 7;
   const auto found = verdict_of(check, run("a", 1, .001));  // 5 to 15 s
-  ASSERT_FALSE(found.assumptions.empty());
-  EXPECT_NE(found.assumptions[0].find("5 to 15 s stands for at.time = 7 s"), std::string::npos);
+  ASSERT_FALSE(found.notes.empty());
+  EXPECT_NE(found.notes[0].find("5 to 15 s stands for at.time = 7 s"), std::string::npos);
   check.place.at["time"] = 17;
   EXPECT_THROW(verdict_of(check, run("a", 1, .001)), InputError);
 }
