@@ -439,10 +439,10 @@ Figure family_figure(const validation::Family& family, const std::string& name) 
                       fmt::format("using 1:2 with lines {}", words)));
   };
   ray(1, "lc rgb '#000000' lw 1");
-  ray(family.bias, "lc rgb '#D55E00' lw 1.3");
+  ray(family.bias, "lc rgb '#D55E00' lw 1.3 dt (12,3)");
   for (const double sign : {-2., 2.})
     ray(family.bias * std::max(0.01, 1 + sign * family.scatter),
-        "lc rgb '#D55E00' lw 0.8 dt (6,3)");
+        "lc rgb '#D55E00' lw 0.8 dt (3,3)");
   bool merges = false;
   for (std::size_t k = 0; k < family.verdicts.size(); ++k) {
     std::vector<std::pair<double, double>> points;
@@ -459,7 +459,8 @@ Figure family_figure(const validation::Family& family, const std::string& name) 
   }
   canvas.draw(layers);
   auto caption = fmt::format(
-      "Black: equal; orange: mean bias {:.3g} (model over reference) and twice the scatter {:.2g}, "
+      "Solid line: equal; long dashes: mean bias {:.3g} (model over reference), short ones: twice "
+      "the scatter {:.2g} about it, "
       "the reference's own ({:.2g}) taken out; {} points",
       family.bias, family.scatter, family.sigma_experiment, family.points);
   if (family.left_out > 0)
