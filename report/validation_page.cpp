@@ -131,14 +131,14 @@ std::string table_of(const ValidationReport& report) {
         "<tr><td>{}</td><th scope=\"row\"><a href=\"#check{}\">{}</a></th><td "
         "class=\"run\">{}</td><td class=\"against\">{}</td>"
         "<td class=\"metric\">{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td>"
-        "<td class=\"number\">{} {}</td>",
+        "<td class=\"number\">{} {}{}</td>",
         badge(v.outcome), k + 1, escaped(where(v)), escaped(v.run),
         breakable(escaped(reference_name(v).empty() ? "–" : reference_name(v))),
         escaped(v.check.metric), has_value ? in_digits(v.metric.value, digits) : "–",
         has_value ? fmt::format("{} to {}", in_digits(v.metric.lo, digits),
                                 in_digits(v.metric.hi, digits))
                   : "–",
-        v.small_is_good ? "≤" : "≥", in_digits(v.limit, digits));
+        v.small_is_good ? "≤" : "≥", in_digits(v.limit, digits), escaped(unit_text(v.metric)));
     if (!report.earlier_name.empty())
       table += "<td class=\"before\">" + history_of(v, keys[k], report) + "</td>";
     table += "</tr>\n";

@@ -84,6 +84,7 @@ Json check_json(const Verdict& verdict) {
       {"lo", number(verdict.metric.lo)},
       {"hi", number(verdict.metric.hi)},
       {"limit", verdict.limit},
+      {"unit", verdict.metric.unit},
       {"verdict", name_of(verdict.outcome)},
       {"reason", verdict.reason},
       {"points", verdict.comparison.points.size()},

@@ -20,10 +20,12 @@ constexpr double coverage_factor = 1.96;
 /// How a value stands to its limit, in words.
 std::string standing(const Verdict& verdict) {
   const int digits = digits_of(verdict);
-  return fmt::format(
-      "{} {} [{}, {}] against {} {}", verdict.check.metric, in_digits(verdict.metric.value, digits),
-      in_digits(verdict.metric.lo, digits), in_digits(verdict.metric.hi, digits),
-      verdict.small_is_good ? "at most" : "at least", in_digits(verdict.limit, digits));
+  const auto unit = unit_text(verdict.metric);
+  return fmt::format("{} {} [{}, {}]{} against {} {}{}", verdict.check.metric,
+                     in_digits(verdict.metric.value, digits), in_digits(verdict.metric.lo, digits),
+                     in_digits(verdict.metric.hi, digits), unit,
+                     verdict.small_is_good ? "at most" : "at least",
+                     in_digits(verdict.limit, digits), unit);
 }
 
 /// An average over `longer` times the time.
@@ -281,6 +283,10 @@ std::string in_digits(double value, int digits) {
   if (text.find("e+") == text.npos || !(std::abs(value) < 1e6)) return text;
   const double unit = std::pow(10, std::floor(std::log10(std::abs(value))) + 1 - digits);
   return fmt::format("{:.0f}", std::round(value / unit) * unit);
+}
+
+std::string unit_text(const MetricValue& metric) {
+  return metric.unit == "-" ? "" : " " + metric.unit;
 }
 
 int digits_of(const Verdict& verdict) {

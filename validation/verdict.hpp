@@ -37,6 +37,9 @@ struct Verdict {
 /// A number for people, rounded to so many digits; with an exponent only from a million on.
 std::string in_digits(double value, int digits);
 
+/// " K" of a metric that has a unit, nothing of one that has none.
+std::string unit_text(const MetricValue& metric);
+
 /// Digits in which a verdict's interval and limit are told apart as they were judged: three, or as
 /// many as it takes.
 int digits_of(const Verdict& verdict);

@@ -164,6 +164,15 @@ TEST(Verdicts, JustBesideTheirLimitAreShownInDigitsThatTellThem) {
   EXPECT_NE(within.reason.find("0.5 [0.5, 0.5]"), std::string::npos) << within.reason;
 }
 
+TEST(Verdicts, SayTheUnitOfWhatHasOne) {
+  auto warm = run("a", 1, .001);
+  warm.series.push_back({"T", "K", {6, 7, 8, 9}, {300, 301, 302, 301}});
+  Check check{.place = {.quantity = "series: T"}, .number = 300, .metric = "max error", .limit = 9};
+  EXPECT_NE(verdict_of(check, warm).reason.find("] K against at most 9 K"), std::string::npos);
+  check.metric = "relative bias";
+  EXPECT_EQ(verdict_of(check, warm).reason.find(" K"), std::string::npos);
+}
+
 TEST(Verdicts, OfAnInstantSayWhatStandsForIt) {
   auto check = against(.075, "relative bias", .5);
   check.place.at["time"] = 7;
