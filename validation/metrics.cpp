@@ -379,6 +379,7 @@ MetricValue with_interval(const Sampled& curve, const StatisticOfCurve& statisti
     const auto memory = memory_of(some.at, errors);
     Draw draw;
     std::vector<double> values;
+    values.reserve(draws);
     for (int k = 0; k < draws; ++k)
       values.push_back(
           statistic_of(some.at, perturbed(some.value, some.u, draw_errors(memory, draw))));
