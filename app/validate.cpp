@@ -112,16 +112,18 @@ void write_all(const Study& study, const std::vector<RunResult>& results,
   output.commit();
 }
 
-/// Each assumption is told once, however many checks rest on it.
+/// Each note and assumption is told once, however many checks rest on it.
 void tell(const std::vector<RunResult>& results, const std::vector<Verdict>& verdicts) {
-  std::set<std::string> assumptions;
+  std::set<std::string> notes, assumptions;
   const auto keys = report::check_keys(verdicts);
   for (std::size_t k = 0; k < verdicts.size(); ++k) {
     const auto& verdict = verdicts[k];
     fmt::print("{:<14} {}: {}\n", name_of(verdict.outcome), keys[k], verdict.reason);
+    notes.insert(verdict.notes.begin(), verdict.notes.end());
     assumptions.insert(verdict.assumptions.begin(), verdict.assumptions.end());
   }
   for (const auto& assumption : assumptions) fmt::print("assumed: {}\n", assumption);
+  for (const auto& note : notes) fmt::print("note: {}\n", note);
   for (const auto& result : results)
     for (const auto& problem : result.problems) fmt::print("note: {}: {}\n", result.label, problem);
 }

@@ -40,11 +40,13 @@ std::string palette(std::span<const std::string> stops) {
   return text + ")";
 }
 
-/// In single quotes nothing but the quote itself means anything to gnuplot.
+/// In single quotes nothing but the quote itself means anything to gnuplot. It writes a '>' into an
+/// SVG as it is, where "]]>" must not stand: an invisible space breaks it.
 std::string constant(std::string_view text) {
   std::string result = "'";
   for (const char c : text) {
     if (c == '\'') result += '\'';
+    if (c == '>' && result.ends_with("]]")) result += "\u200B";
     result += static_cast<unsigned char>(c) < 0x20 || c == 0x7F ? ' ' : c;
   }
   return result + "'";
@@ -53,6 +55,16 @@ std::string constant(std::string_view text) {
 }  // namespace
 
 namespace {
+/// A word as it is written: what gnuplot's enhanced text takes for markup is escaped.
+std::string plain(std::string_view word) {
+  std::string text;
+  for (const char c : word) {
+    if (std::string_view("\\{}^_@&~").find(c) != std::string_view::npos) text += '\\';
+    text += c;
+  }
+  return text;
+}
+
 /// Braces where there is more than one letter behind the `_`.
 std::string subscript(std::string_view part) {
   return part.size() > 2 ? fmt::format("_{{{}}}", part.substr(1)) : std::string(part);
@@ -71,7 +83,7 @@ std::string literal(std::string_view text) {
     if (!first) result += ' ';
     result += symbol ? fmt::format("{{/:Italic {}}}{}", word.substr(0, letter),
                                    subscript(word.substr(letter)))
-                     : std::string(word);
+                     : plain(word);
     text.remove_prefix(std::min(end + 1, text.size()));
   }
   return constant(result);

@@ -80,6 +80,7 @@ std::string history_of(const Verdict& verdict, const std::string& key,
 
 /// What the style sheet of all pages leaves to this one: a table of words that fits on paper.
 constexpr std::string_view own_style = R"(<style>
+  h1, h2, p, li, pre { overflow-wrap: anywhere; }
   .checks td, .checks th { text-align: left; white-space: normal; overflow-wrap: anywhere; min-width: 0; }
   .checks thead th { overflow-wrap: normal; }
   .checks .run { min-width: 4.5rem; }
@@ -124,18 +125,20 @@ std::string table_of(const ValidationReport& report) {
   const auto keys = check_keys(report.verdicts);
   for (std::size_t k = 0; k < report.verdicts.size(); ++k) {
     const auto& v = report.verdicts[k];
-    const bool skipped = v.outcome == Outcome::skipped;
+    const bool has_value = v.outcome != Outcome::skipped && std::isfinite(v.metric.value);
+    const int digits = digits_of(v);
     table += fmt::format(
         "<tr><td>{}</td><th scope=\"row\"><a href=\"#check{}\">{}</a></th><td "
         "class=\"run\">{}</td><td class=\"against\">{}</td>"
         "<td class=\"metric\">{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td>"
-        "<td class=\"number\">{} {}</td>",
+        "<td class=\"number\">{} {}{}</td>",
         badge(v.outcome), k + 1, escaped(where(v)), escaped(v.run),
         breakable(escaped(reference_name(v).empty() ? "–" : reference_name(v))),
-        escaped(v.check.metric), skipped ? "–" : in_digits(v.metric.value, 3),
-        skipped ? "–"
-                : fmt::format("{} to {}", in_digits(v.metric.lo, 3), in_digits(v.metric.hi, 3)),
-        v.small_is_good ? "≤" : "≥", in_digits(v.limit, 3));
+        escaped(v.check.metric), has_value ? in_digits(v.metric.value, digits) : "–",
+        has_value ? fmt::format("{} to {}", in_digits(v.metric.lo, digits),
+                                in_digits(v.metric.hi, digits))
+                  : "–",
+        v.small_is_good ? "≤" : "≥", in_digits(v.limit, digits), escaped(unit_text(v.metric)));
     if (!report.earlier_name.empty())
       table += "<td class=\"before\">" + history_of(v, keys[k], report) + "</td>";
     table += "</tr>\n";
@@ -154,7 +157,8 @@ std::string problems_of(std::span<const analysis::RunResult> runs) {
 }
 
 std::string counts_of(std::span<const Verdict> verdicts) {
-  std::string text = fmt::format("<p>{} checks:", verdicts.size());
+  std::string text =
+      fmt::format("<p>{} check{}:", verdicts.size(), verdicts.size() == 1 ? "" : "s");
   for (const auto outcome :
        {Outcome::holds, Outcome::does_not_hold, Outcome::undecided, Outcome::skipped}) {
     const auto n = std::count_if(verdicts.begin(), verdicts.end(),
@@ -173,7 +177,8 @@ std::string provenance_of(const validation::Curve& curve) {
   };
   add(about.citation);
   add(about.doi.empty() ? "" : "doi " + about.doi);
-  add(about.method.empty() ? about.kind : about.kind + ", " + about.method);
+  add(about.kind.empty() || about.method.empty() ? about.kind + about.method
+                                                 : about.kind + ", " + about.method);
   add(about.source);
   add(about.processing);
   return text;
@@ -198,11 +203,12 @@ std::string section_of(const ValidationReport& report, const Shown& panel, const
   const auto reference = reference_name(report.verdicts[panel.verdicts.front()]);
   std::string text = "<section>\n<h2>" + escaped(panel.figure.title) +
                      (reference.empty() ? "" : " against " + escaped(reference)) + "</h2>\n";
-  std::set<std::string> assumptions;
+  std::set<std::string> notes, assumptions;
   for (const std::size_t k : panel.verdicts) {
     const auto& verdict = report.verdicts[k];
     text += fmt::format("<p id=\"check{}\">{}: {}.</p>\n", k + 1, badge(verdict.outcome),
                         escaped(verdict.reason));
+    notes.insert(verdict.notes.begin(), verdict.notes.end());
     assumptions.insert(verdict.assumptions.begin(), verdict.assumptions.end());
   }
   const auto& first = report.verdicts[panel.verdicts.front()];
@@ -214,6 +220,7 @@ std::string section_of(const ValidationReport& report, const Shown& panel, const
         escaped(with_interval(point.reference, point.u_reference, first.result.y.unit)));
   }
   if (panel.figure.missing.empty()) text += picture_of(panel.figure, folder);
+  for (const auto& note : notes) text += "<p class=\"note\">Note: " + escaped(note) + ".</p>\n";
   for (const auto& assumption : assumptions)
     text += "<p class=\"note\">Assumed: " + escaped(assumption) + ".</p>\n";
   return text + "</section>\n";
@@ -258,8 +265,9 @@ std::string origins(const ValidationReport& report) {
       BEDSCOPE_VERSION, escaped(machine()));
   std::set<std::string> curves;
   for (const auto& run : report.runs)
-    text += fmt::format("<p class=\"note\">{}: {} files, hash {}.</p>\n", escaped(run.label),
-                        run.inputs.size(), analysis::fingerprint(run.inputs));
+    text += fmt::format("<p class=\"note\">{}: {} file{}, hash {}.</p>\n", escaped(run.label),
+                        run.inputs.size(), run.inputs.size() == 1 ? "" : "s",
+                        analysis::fingerprint(run.inputs));
   for (const auto& verdict : report.verdicts)
     if (!verdict.reference.path.empty()) curves.insert(verdict.reference.path);
   for (const auto& path : curves)

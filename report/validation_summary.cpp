@@ -47,6 +47,7 @@ std::size_t count(std::span<const Verdict> verdicts, Outcome outcome) {
 /// The whole story of a check: GitLab shows the text of an element and not its message.
 std::string story_of(const Verdict& verdict) {
   std::string text = verdict.reason + "\n";
+  for (const auto& note : verdict.notes) text += "note: " + note + "\n";
   for (const auto& assumption : verdict.assumptions) text += "assumed: " + assumption + "\n";
   return text;
 }
@@ -83,10 +84,12 @@ Json check_json(const Verdict& verdict) {
       {"lo", number(verdict.metric.lo)},
       {"hi", number(verdict.metric.hi)},
       {"limit", verdict.limit},
+      {"unit", verdict.metric.unit},
       {"verdict", name_of(verdict.outcome)},
       {"reason", verdict.reason},
       {"points", verdict.comparison.points.size()},
       {"points_outside", verdict.comparison.outside.size()},
+      {"notes", verdict.notes},
       {"assumptions", verdict.assumptions}};
 }
 
@@ -135,7 +138,7 @@ std::string junit_text(std::span<const Verdict> verdicts, const std::string& tit
 std::string markdown_text(std::span<const analysis::RunResult> runs,
                           std::span<const Verdict> verdicts, const std::string& title) {
   std::string text = fmt::format(
-      "## {}\n\n{} checks: {} hold, {} do not hold, {} undecided, {} skipped\n\n"
+      "## {}\n\nChecks: {}, of which {} hold, {} do not hold, {} undecided, {} skipped\n\n"
       "| verdict | run | check | why |\n|---|---|---|---|\n",
       cell(title), verdicts.size(), count(verdicts, Outcome::holds),
       count(verdicts, Outcome::does_not_hold), count(verdicts, Outcome::undecided),

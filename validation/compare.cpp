@@ -9,20 +9,40 @@
 namespace bedscope::validation {
 namespace {
 
-/// The finite values of a result.
-Sampled seen(const Sampled& all) {
-  Sampled kept = all;
-  kept.at.clear();
-  kept.value.clear();
-  kept.u.clear();
-  for (std::size_t i = 0; i < all.at.size(); ++i) {
-    if (!std::isfinite(all.value[i])) continue;
-    kept.at.push_back(all.at[i]);
-    kept.value.push_back(all.value[i]);
-    kept.u.push_back(all.u[i]);
+/// The finite values of a result, and where others lay between them: from the last value before to
+/// the first behind.
+struct Seen {
+  Sampled curve;
+  std::vector<std::pair<double, double>> gaps;  ///< ascending
+
+  explicit Seen(const Sampled& all) : curve(all) {
+    curve.at.clear();
+    curve.value.clear();
+    curve.u.clear();
+    bool in_gap = false;
+    for (std::size_t i = 0; i < all.at.size(); ++i) {
+      const bool is_seen = std::isfinite(all.value[i]);
+      if (is_seen) {
+        if (in_gap && !curve.at.empty()) gaps.emplace_back(curve.at.back(), all.at[i]);
+        curve.at.push_back(all.at[i]);
+        curve.value.push_back(all.value[i]);
+        curve.u.push_back(all.u[i]);
+      }
+      in_gap = !is_seen;
+    }
   }
-  return kept;
-}
+
+  bool reaches(double x) const {
+    return curve.is_scalar || (x >= curve.at.front() && x <= curve.at.back());
+  }
+  /// But for rounding: at its ends there are values.
+  bool has_gap_at(double x) const {
+    const auto ends = [](const auto& gap) { return 1e-9 * (gap.second - gap.first); };
+    const auto gap = std::partition_point(gaps.begin(), gaps.end(),
+                                          [&](const auto& g) { return g.second - ends(g) <= x; });
+    return gap != gaps.end() && x > gap->first + ends(*gap);
+  }
+};
 
 /// The Lagrange polynomial through the points first ... first + count - 1 at x.
 double polynomial(const Sampled& curve, std::size_t first, std::size_t count, double x) {
@@ -40,6 +60,23 @@ double polynomial(const Sampled& curve, std::size_t first, std::size_t count, do
 double between(double a, double b, double share) {
   if (share <= 0) return a;
   return share < 1 ? (1 - share) * a + share * b : b;
+}
+
+/// Linear between the points of a curve, from its first to its last.
+double linear(const Sampled& curve, double x) {
+  const auto above = std::upper_bound(curve.at.begin() + 1, curve.at.end() - 1, x);
+  const auto k = static_cast<std::size_t>(above - curve.at.begin());
+  const double share = (x - curve.at[k - 1]) / (curve.at[k] - curve.at[k - 1]);
+  return between(curve.value[k - 1], curve.value[k], share);
+}
+
+/// The slope of the result that an error of the reference's abscissa meets: over its reach, or
+/// between the neighbours k - 1 and k where these are wider apart. Of neighbours that are closer
+/// the difference is the result's noise, which is no slope.
+double slope_at(const Sampled& result, std::size_t k, const CurvePoint& reference) {
+  const double from = std::clamp(reference.x - reference.u_x, result.at.front(), result.at[k - 1]);
+  const double to = std::clamp(reference.x + reference.u_x, result.at[k], result.at.back());
+  return (linear(result, to) - linear(result, from)) / (to - from);
 }
 
 /// The reference's errors at its point, where the result has this slope.
@@ -68,20 +105,18 @@ ComparedPoint at_reference(const Sampled& result, const CurvePoint& reference) {
   const std::size_t count = std::min<std::size_t>(4, result.at.size());
   const std::size_t first = std::min(k < 2 ? 0 : k - 2, result.at.size() - count);
   point.u_interpolation = std::abs(polynomial(result, first, count, reference.x) - point.result);
-  const double slope = (result.value[k] - result.value[k - 1]) / width;
-  set_reference_errors(reference, slope, point);
+  set_reference_errors(reference, slope_at(result, k, reference), point);
   return point;
 }
 
-void match(const Sampled& result, const std::vector<CurvePoint>& reference, Comparison& found) {
+void match(const Seen& seen, const std::vector<CurvePoint>& reference, Comparison& found) {
   for (const auto& point : reference) {
-    const bool reached =
-        result.is_scalar || (point.x >= result.at.front() && point.x <= result.at.back());
-    if (!reached) {
+    if (!seen.reaches(point.x) || seen.has_gap_at(point.x)) {
+      found.in_gaps += seen.reaches(point.x) ? 1 : 0;
       found.outside.push_back(point);
       continue;
     }
-    const auto compared = at_reference(result, point);
+    const auto compared = at_reference(seen.curve, point);
     if (std::isfinite(compared.u_result))
       found.points.push_back(compared);
     else
@@ -93,13 +128,6 @@ double sum_of_squares(const Comparison& comparison) {
   double sum = 0;
   for (const auto& point : comparison.points) sum += point.error() * point.error();
   return sum / static_cast<double>(std::max<std::size_t>(comparison.points.size(), 1));
-}
-
-/// The reference from the other wall: x becomes min + max - x of the result's range.
-std::vector<CurvePoint> turned(const Sampled& result, std::vector<CurvePoint> points) {
-  for (auto& point : points) point.x = result.at.front() + result.at.back() - point.x;
-  std::reverse(points.begin(), points.end());
-  return points;
 }
 
 /// The errors of averages over the same snapshots are the same, and drop out of their difference.
@@ -118,21 +146,35 @@ double ComparedPoint::u_validation() const {
                    u_reference * u_reference);
 }
 
+std::vector<CurvePoint> turned_round(const Sampled& result, std::vector<CurvePoint> points) {
+  for (auto& point : points) point.x = result.at.front() + result.at.back() - point.x;
+  std::reverse(points.begin(), points.end());
+  return points;
+}
+
+bool ComparedPoint::has_logarithm() const {
+  constexpr double coverage_factor = 1.96;
+  return result > coverage_factor * std::hypot(u_result, u_interpolation) &&
+         reference > coverage_factor * std::max(u_reference, away());
+}
+
 Comparison compare(const Sampled& all, const Curve& reference, std::size_t least) {
   if (all.y.unit != reference.y.unit || (!all.is_scalar && all.x.unit != reference.x.unit))
     throw InputError("{}: {} against {}: expected the units of the result, {} against {}",
                      reference.name, reference.y.text(), reference.x.text(), all.y.text(),
                      all.x.text());
-  const auto result = seen(all);
+  const Seen seen(all);
+  const auto& result = seen.curve;
   Comparison found{
       .x = all.x, .y = all.y, .error_known = all.error_known, .duration = all.duration};
-  if (!result.at.empty()) match(result, reference.points, found);
+  if (!result.at.empty()) match(seen, reference.points, found);
   if (!reference.about.orientation_known && result.at.size() > 1) {
     Comparison other = found;
     other.points.clear();
     other.outside.clear();
+    other.in_gaps = 0;
     other.without_error.clear();
-    match(result, turned(result, reference.points), other);
+    match(seen, turned_round(result, reference.points), other);
     if (other.points.size() >= found.points.size() &&
         sum_of_squares(other) < sum_of_squares(found)) {
       found = std::move(other);

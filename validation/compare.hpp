@@ -32,8 +32,8 @@ struct ComparedPoint {
   double x = 0, result = 0, reference = 0;
   double u_result = 0;         ///< standard error of the time average
   double u_interpolation = 0;  ///< of the result between its own abscissae
-  double u_reference = 0;      ///< of its ordinate, and of its abscissa through the result's slope,
-                               ///< towards the result where a bar has unequal arms
+  double u_reference = 0;      ///< of its ordinate, and of its abscissa through the result's slope
+                               ///< over its reach; towards the result where a bar has unequal arms
   double u_reference_away = -1;  ///< away from it; below 0: as u_reference
 
   double error() const { return result - reference; }
@@ -42,12 +42,16 @@ struct ComparedPoint {
   double u_reference_mean() const;
   /// u_val of ASME V&V 20 (2009), eq. 1-5-4.
   double u_validation() const;
+  /// Whether result and reference are above 0 by more than their 95 % uncertainty: others have no
+  /// logarithm, or none with an error to speak of.
+  bool has_logarithm() const;
 };
 
 struct Comparison {
   Title x, y;
   std::vector<ComparedPoint> points;
   std::vector<CurvePoint> outside;  ///< points of the reference that the result does not reach
+  std::size_t in_gaps = 0;  ///< of these, between two points of the result that has none there
   std::vector<CurvePoint>
       without_error;      ///< where the result has no interval, though elsewhere it has
   bool mirrored = false;  ///< the reference's abscissa was turned round: see compare()
@@ -55,15 +59,18 @@ struct Comparison {
   double duration = 0;
 };
 
+/// The reference's points from the other wall: x becomes first + last - x of the result's
+/// abscissae.
+std::vector<CurvePoint> turned_round(const Sampled& result, std::vector<CurvePoint> points);
+
 /// The result interpolated linearly to the abscissae of the reference, nowhere extrapolated (half a
 /// cell at the ends is not either). The interpolation's error is taken as its difference from the
-/// cubic through four neighbours. Non-finite values of the result are left out first. Where the
-/// error of the result is not known at a point, though it is at others, it is not compared there.
-/// Where the reference does not say which end of its abscissa is which wall, it is turned round
-/// within the result's range if it fits better so, and `mirrored` says it.
-/// Errors of averages over the same snapshots (Curve::of_same_snapshots) are common, and count 0.
-/// Throws InputError where fewer than `least` points of the reference are reached, or where units
-/// differ.
+/// cubic through four neighbours. Where the result has no finite value it reaches nothing. Where
+/// the error of the result is not known at a point, though it is at others, it is not compared
+/// there. Where the reference does not say which end of its abscissa is which wall, it is turned
+/// round within the result's range if it fits better so, and `mirrored` says it. Errors of averages
+/// over the same snapshots (Curve::of_same_snapshots) are common, and count 0. Throws InputError
+/// where fewer than `least` points of the reference are reached, or where units differ.
 Comparison compare(const Sampled& result, const Curve& reference, std::size_t least = 1);
 
 }  // namespace bedscope::validation

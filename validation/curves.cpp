@@ -11,7 +11,6 @@
 
 #include "analysis/csv.hpp"
 #include "readers/toml_table.hpp"
-#include "validation/quantity.hpp"
 #include "validation/sidecar.hpp"
 
 namespace bedscope::validation {
@@ -87,8 +86,10 @@ Columns find_columns(const std::string& path, const analysis::CsvReader& rows, S
   for (std::size_t k = 0; k < header.size(); ++k)
     if (!is_extra(parse_title(header[k]).name)) plain.push_back(k);
   if (plain.size() < 2)
-    throw FormatError("{}: line 1: expected an abscissa and an ordinate with their units, found {}",
-                      path, fmt::join(header, ", "));
+    throw FormatError(
+        "{}: line 1: expected an abscissa and an ordinate with their units, a comma between them, "
+        "found {}",
+        path, fmt::join(header, ", "));
   columns.x =
       sidecar.abscissa.empty() ? plain[plain.size() - 2] : needed(path, rows, sidecar.abscissa);
   columns.y = sidecar.ordinate.empty() ? plain.back() : needed(path, rows, sidecar.ordinate);
@@ -200,6 +201,12 @@ CurveSet read_set(const std::string& name, const std::string& path) {
   return set;
 }
 
+std::string trimmed(const std::string& text) {
+  const auto begin = text.find_first_not_of(' ');
+  if (begin == text.npos) return "";
+  return text.substr(begin, text.find_last_not_of(' ') + 1 - begin);
+}
+
 /// "name?U=5.55&height=0.8"
 std::pair<std::string, std::map<std::string, std::string>> parse_selection(
     const std::string& selection) {
@@ -213,7 +220,7 @@ std::pair<std::string, std::map<std::string, std::string>> parse_selection(
     if (equals == part.npos || equals == 0)
       throw InputError("{}: expected a selection such as \"?U=5.55&height=0.8\", found \"{}\"",
                        selection, part);
-    chosen[part.substr(0, equals)] = part.substr(equals + 1);
+    chosen[trimmed(part.substr(0, equals))] = trimmed(part.substr(equals + 1));
     at = end + 1;
   }
   return {selection.substr(0, question), chosen};
@@ -253,26 +260,34 @@ void assume_uncertainties(const Sidecar& sidecar, bool has_bars, Curve& curve) {
   if (!has_bars) assume(sidecar.u_y, curve.y, &CurvePoint::y, &CurvePoint::u_y, assumed_u_y);
 }
 
+/// All of a few values, the ends of many.
+std::string listed(const std::vector<std::string>& values) {
+  constexpr std::size_t most = 12;
+  if (values.size() <= most) return fmt::format("{}", fmt::join(values, ", "));
+  return fmt::format("{}, {} ... {} ({} values)", values[0], values[1], values.back(),
+                     values.size());
+}
+
 std::string choices(const CurveSet& set) {
   std::string text;
   for (const auto& parameter : set.parameters)
     text += fmt::format("{}{} = {}", text.empty() ? "" : "; ", parameter.title.name,
-                        fmt::join(parameter.values, ", "));
+                        listed(parameter.values));
   return text;
 }
 
 /// For each parameter what its rows must hold: chosen, or given by the check's place.
 std::vector<std::string> wanted_values(const CurveSet& set, const std::string& selection,
                                        std::map<std::string, std::string> chosen,
-                                       const std::map<std::string, double>& at) {
+                                       const Place& place) {
   std::vector<std::string> wanted;
   for (const auto& [title, values] : set.parameters) {
     std::string value;
     if (const auto named = chosen.find(title.name); named != chosen.end()) {
       value = named->second;
       chosen.erase(named);
-    } else if (const auto place = at.find(title.name); place != at.end()) {
-      value = fmt::format("{}", place->second);
+    } else if (const auto at = place.at.find(title.name); at != place.at.end()) {
+      value = fmt::format("{}", at->second);
     } else {
       wanted.emplace_back();  // any, if the rows that are left agree
       continue;
@@ -285,10 +300,11 @@ std::vector<std::string> wanted_values(const CurveSet& set, const std::string& s
   }
   std::set<std::string> parameters;
   for (const auto& parameter : set.parameters) parameters.insert(parameter.title.name);
-  require_place_keys(at, parameters);
+  require_place_keys(place, parameters);
   if (!chosen.empty())
-    throw InputError("{}: expected a choice among {}, found {}", selection,
-                     set.parameters.empty() ? "nothing" : choices(set), chosen.begin()->first);
+    throw InputError("{}: expected a choice among {}, found {}{}", selection,
+                     set.parameters.empty() ? "nothing" : choices(set), chosen.begin()->first,
+                     chosen.begin()->first == set.x.name ? ", which is the curve's abscissa" : "");
   return wanted;
 }
 
@@ -316,9 +332,11 @@ Curve read_curve(const CurveSet& set, const std::string& selection,
   // A column without a unit is a label of the source; the numbers beside it choose.
   for (std::size_t k = 0; k < wanted.size(); ++k)
     if (left[k].size() > 1 && !set.parameters[k].title.unit.empty())
-      throw InputError("{}: several curves: expected a choice of {}, found {} = {}; there are {}",
-                       selection, set.parameters[k].title.name, set.parameters[k].title.name,
-                       fmt::join(ordered(left[k]), ", "), choices(set));
+      throw InputError(
+          "{}: several curves of {} against {}: expected a choice of {}, found {} = {}; there are "
+          "{}",
+          selection, set.y.text(), set.x.text(), set.parameters[k].title.name,
+          set.parameters[k].title.name, listed(ordered(left[k])), choices(set));
   if (curve.points.empty())
     throw InputError("{}: no point is left; there are {}", selection, choices(set));
   if (curve.x.is_time() && !disorder.empty()) throw FormatError("{}", disorder);
@@ -354,7 +372,7 @@ Curves Curves::open(std::span<const std::string> folders, const fs::path& base) 
   return curves;
 }
 
-Curve Curves::curve(const std::string& selection, const std::map<std::string, double>& at) const {
+Curve Curves::curve(const std::string& selection, const Place& place) const {
   const auto [name, chosen] = parse_selection(selection);
   const auto found =
       std::find_if(sets_.begin(), sets_.end(),
@@ -378,7 +396,7 @@ Curve Curves::curve(const std::string& selection, const std::map<std::string, do
   if (set.x.name.empty())
     throw InputError("{}: a table of values, not a curve: expected an abscissa and an ordinate",
                      name);
-  return read_curve(set, selection, wanted_values(set, selection, chosen, at));
+  return read_curve(set, selection, wanted_values(set, selection, chosen, place));
 }
 
 }  // namespace bedscope::validation

@@ -11,6 +11,7 @@
 
 #include "readers/error.hpp"
 #include "validation/curve.hpp"
+#include "validation/quantity.hpp"
 
 namespace bedscope::validation {
 
@@ -51,8 +52,9 @@ class Curves {
   /// The curve of a selection such as "varas_2017/lateral_holdup?U=5.55&height=0.8"; parameters
   /// that it does not name are taken from `at` where they occur there. A path of a CSV file works
   /// as a name, too. Throws InputError (no such curve: names the nearest; a selection that leaves
-  /// no point, or several curves: lists what there is), MissingCurve.
-  Curve curve(const std::string& selection, const std::map<std::string, double>& at = {}) const;
+  /// no point, or several curves: lists what there is; a key of `at` that neither the quantity of
+  /// the place nor the curve knows), MissingCurve.
+  Curve curve(const std::string& selection, const Place& place = {}) const;
 
  private:
   std::vector<CurveSet> sets_;

@@ -12,7 +12,7 @@ void evaluate(Family& family) {
   double relative = 0;
   for (const auto* verdict : family.verdicts)
     for (const auto& point : verdict->comparison.points) {
-      if (!(point.result > 0 && point.reference > 0)) {
+      if (!point.has_logarithm()) {
         ++family.left_out;
         continue;
       }

@@ -17,8 +17,9 @@ namespace bedscope::validation {
 ///   bias    = exp(mean ln(M/E) + scatter^2 / 2 - sigma_E^2 / 2)
 ///   scatter = sqrt(max(0, var ln(M/E) - sigma_E^2)),  sigma_E^2 = mean (u_E / E)^2
 ///
-/// so that the experiment's own scatter is taken out. Points with M or E not above 0 have no
-/// logarithm: counted in `left_out`. Source: McGrattan and Toman, Metrologia 48 (2011) 173.
+/// so that the experiment's own scatter is taken out. Points with M or E not above 0 by more than
+/// their uncertainty have no logarithm: counted in `left_out`. Source: McGrattan and Toman,
+/// Metrologia 48 (2011) 173.
 struct Family {
   std::string quantity, unit;
   double bias = 1, scatter = 0;

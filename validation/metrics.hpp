@@ -17,6 +17,7 @@ struct MetricValue {
   double value = 0, lo = 0, hi = 0;
   double fixed_half_width = 0;
   std::string unit = "-";
+  std::size_t points = 0, points_drawn = 0;  ///< compared, and those of them that were drawn
 };
 
 /// The metrics of profiles and single values. All take E = result - reference at the points of a
@@ -27,7 +28,7 @@ struct Metric {
   bool small_is_good = true;  ///< false: the limit is a lower one (correlation)
   bool per_mean = true;       ///< in units of m; needs m != 0
   std::size_t least_points = 1;
-  bool of_logarithms = false;   ///< only of points at which result and reference are above 0
+  bool of_logarithms = false;   ///< only of points that have one
   bool of_differences = false;  ///< between points of a curve: errors common to all cancel
 };
 
@@ -54,6 +55,8 @@ const Metric& find_metric(const std::string& name);
 /// the wider ends taken. The draws' own scatter is subtracted from the rmse,
 /// which would count it; elsewhere the interval is the union of the percentile and the reflected
 /// one (Davison and Hinkley, Bootstrap Methods, 1997, section 5.2). Always the same draws.
+/// Of more than 1,000 points the value is of all, and the draws are of 1,000 (draws.hpp: the rule
+/// and its error).
 /// Of the largest error the interval is made of the points' own. "e over u" is its own test: the
 /// uncertainties are in it, and its interval is the value.
 /// Throws InputError for a reference of zero mean, or "e over u" without any uncertainty.
@@ -68,11 +71,14 @@ double wasserstein(std::span<const double> x1, std::span<const double> density1,
                    std::span<const double> x2, std::span<const double> density2);
 MetricValue evaluate_area(const Sampled& result, const Curve& reference);
 
+/// Of abscissae and values.
+using StatisticOfCurve =
+    std::function<double(std::span<const double> at, std::span<const double> value)>;
+
 /// A statistic of a curve under its errors: as for the metrics. From a distance, which is never
 /// below 0 and which noise raises, the mean square is taken off that the draws add to it: once for
 /// what the curve's own noise added, once for that of the draws.
-MetricValue with_interval(const Sampled& curve,
-                          const std::function<double(std::span<const double>)>& statistic,
+MetricValue with_interval(const Sampled& curve, const StatisticOfCurve& statistic,
                           bool is_distance = false);
 
 }  // namespace bedscope::validation

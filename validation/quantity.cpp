@@ -15,15 +15,25 @@
 
 namespace bedscope::validation {
 
-void require_place_keys(const std::map<std::string, double>& at,
-                        const std::set<std::string>& others) {
-  std::set<std::string> known(place_keys.begin(), place_keys.end());
-  known.insert(others.begin(), others.end());
-  for (const auto& [key, value] : at)
-    if (!known.contains(key))
-      throw InputError("unknown key at.{}; the nearest known one is at.{}", key,
-                       readers::nearest_name(key, known));
+std::set<std::string> place_keys(std::string_view quantity) {
+  std::set<std::string> keys;
+  const bool is_local = quantity.starts_with("local");
+  if (is_local || quantity.starts_with("lateral")) keys.insert("height");
+  if (is_local) keys.insert("x");
+  if (quantity.starts_with("probe")) keys.insert("probe");
+  if (!quantity.ends_with(" history")) keys.insert("time");
+  return keys;
 }
+
+void require_place_keys(const Place& place, const std::set<std::string>& others) {
+  auto known = place_keys(place.quantity);
+  known.insert(others.begin(), others.end());
+  for (const auto& [key, value] : place.at)
+    if (!known.contains(key))
+      throw InputError("unknown key at.{} of {}; expected {}{}", key, place.quantity,
+                       known.empty() ? "none" : "at.", fmt::join(known, ", at."));
+}
+
 namespace {
 
 constexpr std::array all_quantities{

@@ -2,7 +2,6 @@
 // The quantities of a run that can be judged, by the names that a study uses.
 #pragma once
 
-#include <array>
 #include <map>
 #include <set>
 #include <span>
@@ -22,13 +21,12 @@ struct Place {
   std::string species = "all";
 };
 
-/// The keys of `at` that a run knows; others can only be parameters of a curve.
-inline constexpr std::array<std::string_view, 4> place_keys{"height", "probe", "time", "x"};
+/// The keys of `at` that a quantity knows; others can only be parameters of a curve.
+std::set<std::string> place_keys(std::string_view quantity);
 
-/// Throws InputError naming the nearest, where a key of `at` is neither a place's nor one of
-/// `others`.
-void require_place_keys(const std::map<std::string, double>& at,
-                        const std::set<std::string>& others = {});
+/// Throws InputError naming those that can be, where a key of `at` is neither among those of the
+/// quantity nor one of `others`.
+void require_place_keys(const Place& place, const std::set<std::string>& others = {});
 
 /// `of` gives the values of a run; a new quantity is a line of the table in quantity.cpp.
 struct NamedQuantity {

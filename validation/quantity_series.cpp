@@ -52,19 +52,34 @@ bool ascending(const std::vector<double>& times) {
                             [](double a, double b) { return !(a < b); }) == times.end();
 }
 
-Estimate mean_of(const Signal& signal) {
+/// Its mean, and what makes that or its interval doubtful.
+Sampled mean_of(const RunResult& run, const std::string& what, const Signal& signal) {
   const auto weights = ascending(signal.times) ? analysis::time_weights(signal.times)
                                                : std::vector<double>(signal.times.size(), 1);
-  return analysis::estimate_mean(signal.values, weights).estimate();
+  const auto mean = analysis::estimate_mean(signal.values, weights);
+  auto sampled = single(mean.estimate());
+  const auto note = [&](const std::string& words) {
+    sampled.notes.push_back(fmt::format("run \"{}\": {}: {}", run.label, what, words));
+  };
+  if (mean.few_samples && signal.values.size() > 1)
+    note(fmt::format("{:.3g} independent samples, too few for its interval to be trusted",
+                     mean.independent_samples));
+  if (mean.disagree) note("batch means and autocorrelation time disagree on the error");
+  const auto drift = analysis::drift_of(signal.values);
+  if (drift.significance > analysis::significant_drift)
+    note(fmt::format(
+        "drifts by {:.3g} over the window ({:.3g} standard errors): it may not be steady",
+        drift.change, drift.significance));
+  return sampled;
 }
 
 /// Over the window, unless the analysis of dumps already knows it.
 template <class Row, class Value>
-Sampled window_mean(const RunResult& run, const Estimate& known, const std::vector<Row>& rows,
-                    Value Row::*value) {
+Sampled window_mean(const RunResult& run, const Place& place, const Estimate& known,
+                    const std::vector<Row>& rows, Value Row::*value) {
   if (std::isfinite(known.value)) return single(known);
-  return single(
-      mean_of(series(rows, value, [&](const Row& row) { return in_window(run, row.time); })));
+  return mean_of(run, place.quantity,
+                 series(rows, value, [&](const Row& row) { return in_window(run, row.time); }));
 }
 
 /// The same of rows that have a species.
@@ -72,9 +87,9 @@ template <class Row>
 Sampled species_mean(const RunResult& run, const Place& place, const Estimate& known,
                      const std::vector<Row>& rows, double Row::*value) {
   if (place.species == "all" && std::isfinite(known.value)) return single(known);
-  return single(mean_of(series(rows, value, [&](const Row& row) {
-    return row.type == place.species && in_window(run, row.time);
-  })));
+  return mean_of(run, place.quantity, series(rows, value, [&](const Row& row) {
+                   return row.type == place.species && in_window(run, row.time);
+                 }));
 }
 
 /// A series as it is: each instant one value of one realisation, which has no error of a mean.
@@ -168,8 +183,8 @@ const analysis::Fluctuation& probe_of(const RunResult& run, const Place& place) 
 
 }  // namespace
 
-Sampled occurrence(const RunResult& run, const Place&) {
-  return window_mean(run, run.mean_occurrence, run.occurrence,
+Sampled occurrence(const RunResult& run, const Place& place) {
+  return window_mean(run, place, run.mean_occurrence, run.occurrence,
                      &analysis::OccurrenceSample::clusters);
 }
 Sampled cluster_holdup(const RunResult& run, const Place&) {
@@ -192,12 +207,14 @@ Sampled mean_temperature(const RunResult& run, const Place& place) {
 Sampled temperature_spread(const RunResult& run, const Place& place) {
   return species_mean(run, place, {}, run.temperature, &analysis::TemperatureSample::std);
 }
-Sampled pressure_drop(const RunResult& run, const Place&) {
-  return window_mean(run, run.gas.pressure_drop, run.gas.pressure, &analysis::PressureSample::drop);
+Sampled pressure_drop(const RunResult& run, const Place& place) {
+  return window_mean(run, place, run.gas.pressure_drop, run.gas.pressure,
+                     &analysis::PressureSample::drop);
 }
 Sampled bed_voidage(const RunResult& run, const Place&) { return single(run.bed_voidage); }
-Sampled bed_height(const RunResult& run, const Place&) {
-  return window_mean(run, run.bed.surface, run.bed.samples, &analysis::BedHeightSample::surface);
+Sampled bed_height(const RunResult& run, const Place& place) {
+  return window_mean(run, place, run.bed.surface, run.bed.samples,
+                     &analysis::BedHeightSample::surface);
 }
 
 Sampled bubble_number(const RunResult& run, const Place&) {
@@ -256,28 +273,42 @@ Sampled series_mean(const RunResult& run, const Signal& signal) {
       kept.times.push_back(signal.times[i]);
       kept.values.push_back(signal.values[i]);
     }
-  return single(mean_of(kept));
+  return mean_of(run, signal.name, kept);
 }
 Sampled series_history(const Signal& signal) { return history(signal); }
 
-/// Probability density of the clusters' lateral places in the domain, 0 to 1, with the errors of
-/// counts (Poisson).
+/// Probability density of the clusters' lateral places in the domain, 0 to 1, over the window. Its
+/// errors are those of the snapshots as samples, for a cluster is seen in many of them; at least
+/// those of counts (Poisson), which also a bin has that saw none.
 Sampled cluster_position(const RunResult& run, const Place&) {
   Sampled sampled{.x = {"x over width", "-"}, .is_distribution = true};
-  std::vector<double> counts(distribution_bins);
+  std::vector<std::size_t> sample_of(run.occurrence.size());  // of each snapshot in the window
+  std::size_t samples = 0;
+  for (std::size_t i = 0; i < sample_of.size(); ++i)
+    sample_of[i] = in_window(run, run.occurrence[i].time) ? samples++ : sample_of.size();
+  std::vector<std::vector<double>> counts(distribution_bins, std::vector<double>(samples));
+  std::vector<double> all(samples);
   const double low = run.grid.min[0], width = run.grid.max[0] - low;
   for (const auto& cluster : run.clusters) {
     const double share = (cluster.centre.x - low) / width;
-    if (!(share >= 0 && share <= 1)) continue;
-    counts[static_cast<std::size_t>(
-        std::min<double>(share * distribution_bins, distribution_bins - 1))] += 1;
+    if (cluster.snapshot >= sample_of.size() || sample_of[cluster.snapshot] >= samples ||
+        !(share >= 0 && share <= 1))
+      continue;
+    const auto bin = static_cast<std::size_t>(
+        std::min<double>(share * distribution_bins, distribution_bins - 1));
+    counts[bin][sample_of[cluster.snapshot]] += 1;
+    all[sample_of[cluster.snapshot]] += 1;
   }
-  const double all = std::accumulate(counts.begin(), counts.end(), 0.);
-  if (all == 0) return sampled;
+  const double total = std::accumulate(all.begin(), all.end(), 0.);
+  if (total == 0) return sampled;
+  const std::vector<double> weights(samples, 1);
   for (int k = 0; k < distribution_bins; ++k) {
+    const double count = std::accumulate(counts[k].begin(), counts[k].end(), 0.);
+    const double of_snapshots =
+        analysis::estimate_ratio(counts[k], all, weights).ci95 / coverage_factor;
     sampled.at.push_back((k + .5) / distribution_bins);
-    sampled.value.push_back(counts[k] / all * distribution_bins);
-    sampled.u.push_back(std::sqrt(counts[k] + 1) / all * distribution_bins);
+    sampled.value.push_back(count / total * distribution_bins);
+    sampled.u.push_back(std::fmax(std::sqrt(count + 1) / total, of_snapshots) * distribution_bins);
   }
   return sampled;
 }

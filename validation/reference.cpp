@@ -104,13 +104,16 @@ Curve mean_of_others(const Check& check, const RunResult& run, const Sampled& re
   if (others.empty()) throw InputError("run:others: expected a second run in the study");
   for (const double x : result.at) {
     double sum = 0, u = 0, count = 0;
-    for (const auto& other : others)
-      for (const auto& point : other.points)
-        if (point.x == x) {
-          sum += point.result;
-          u += point.u_result * point.u_result + point.u_interpolation * point.u_interpolation;
-          count += 1;
-        }
+    for (const auto& other : others) {
+      auto point = std::lower_bound(
+          other.points.begin(), other.points.end(), x,
+          [](const ComparedPoint& compared, double wanted) { return compared.x < wanted; });
+      for (; point != other.points.end() && point->x == x; ++point) {
+        sum += point->result;
+        u += point->u_result * point->u_result + point->u_interpolation * point->u_interpolation;
+        count += 1;
+      }
+    }
     if (count == static_cast<double>(others.size()))
       mean.points.push_back({x, sum / count, 0, std::sqrt(u) / count});
   }
@@ -132,7 +135,8 @@ Curve reduced(Curve curve, const Sampled& result) {
     signal.values.push_back(point.y);
     u = std::max(u, point.u_y);
   }
-  const auto found = analysis::fluctuation_of(signal, 0, curve.assumptions);
+  std::vector<std::string> of_spectrum;
+  const auto found = analysis::fluctuation_of(signal, 0, of_spectrum);
   analysis::Estimate estimate = found.mean;
   const char* words = "mean";
   if (result.statistic == Statistic::deviation) {
@@ -143,6 +147,7 @@ Curve reduced(Curve curve, const Sampled& result) {
     estimate = found.dominant;
     words = "dominant frequency";
     curve.y = {"dominant frequency", "Hz"};
+    curve.assumptions.insert(curve.assumptions.end(), of_spectrum.begin(), of_spectrum.end());
     u = 0;
   }
   if (!std::isfinite(estimate.value))
@@ -177,7 +182,7 @@ Curve reference_of(const Check& check, const RunResult& run, const Sampled& resu
     case Kind::curve:
       break;
   }
-  return reduced(curves.curve(name, check.place.at), result);
+  return reduced(curves.curve(name, check.place), result);
 }
 
 void require_reference(const Check& check, std::span<const std::string> labels,
@@ -190,10 +195,10 @@ void require_reference(const Check& check, std::span<const std::string> labels,
     if (!check.run.empty()) require_run(check.run);
     const auto [kind, name] = source_of(check);
     if (kind == Kind::curve) {
-      curves.curve(name, check.place.at);  // which may have keys of its own
+      curves.curve(name, check.place);  // which may have keys of its own
       return;
     }
-    require_place_keys(check.place.at);
+    require_place_keys(check.place);
     if (kind == Kind::theory) require_theory(name, check.with);
     if (kind == Kind::baseline) baseline_folder(name, study);
     if (kind == Kind::run) {

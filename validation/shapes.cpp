@@ -122,12 +122,11 @@ MetricValue evaluate(const Shape& shape, const Sampled& profile) {
                      least_points, kept.at.size());
   if (std::all_of(kept.value.begin(), kept.value.end(), [](double v) { return v == 0; }))
     throw InputError("{}: {} is 0 everywhere: it has no shape", shape.name, kept.y.name);
-  std::vector<double> share;
-  for (const double at : kept.at)
-    share.push_back((at - kept.at.front()) / (kept.at.back() - kept.at.front()));
   return with_interval(
       kept,
-      [&](std::span<const double> values) {
+      [&](std::span<const double> at, std::span<const double> values) {
+        std::vector<double> share;
+        for (const double x : at) share.push_back((x - at.front()) / (at.back() - at.front()));
         return statistic(shape.name, {share, values});
       },
       shape.is_distance);

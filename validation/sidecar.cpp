@@ -97,7 +97,12 @@ std::optional<double> to_number(std::string_view text) {
 
 Sidecar sidecar_of(const std::string& csv) {
   const auto path = std::filesystem::path(csv).replace_extension(".toml");
-  return std::filesystem::exists(path) ? read_sidecar(path.string()) : Sidecar{};
+  if (!std::filesystem::exists(path)) return {};
+  try {
+    return read_sidecar(path.string());
+  } catch (const InputError& error) {  // a study that is named as a curve beside it, say
+    throw InputError("{} (read as the sidecar of {})", error.what(), csv);
+  }
 }
 
 }  // namespace bedscope::validation

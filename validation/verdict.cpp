@@ -19,10 +19,13 @@ constexpr double coverage_factor = 1.96;
 
 /// How a value stands to its limit, in words.
 std::string standing(const Verdict& verdict) {
-  return fmt::format("{} {} [{}, {}] against {} {}", verdict.check.metric,
-                     in_digits(verdict.metric.value, 3), in_digits(verdict.metric.lo, 3),
-                     in_digits(verdict.metric.hi, 3),
-                     verdict.small_is_good ? "at most" : "at least", in_digits(verdict.limit, 3));
+  const int digits = digits_of(verdict);
+  const auto unit = unit_text(verdict.metric);
+  return fmt::format("{} {} [{}, {}]{} against {} {}{}", verdict.check.metric,
+                     in_digits(verdict.metric.value, digits), in_digits(verdict.metric.lo, digits),
+                     in_digits(verdict.metric.hi, digits), unit,
+                     verdict.small_is_good ? "at most" : "at least",
+                     in_digits(verdict.limit, digits), unit);
 }
 
 /// An average over `longer` times the time.
@@ -35,15 +38,17 @@ std::string in_time(double duration, double longer) {
 
 /// Who sets the uncertainty that a longer simulation leaves: the reference, or cells so coarse that
 /// the result is not known between them.
-std::string_view what_limits(const Comparison& comparison) {
+std::string_view what_limits(const Verdict& verdict) {
   double of_reference = 0, of_interpolation = 0;
-  for (const auto& point : comparison.points) {
+  for (const auto& point : verdict.comparison.points) {
     of_reference += point.u_reference_mean() * point.u_reference_mean();
     of_interpolation += point.u_interpolation * point.u_interpolation;
   }
-  return of_interpolation > of_reference
-             ? "no longer simulation can settle it, smaller cells might: interpolation between the "
-               "result's points is too uncertain"
+  if (of_interpolation > of_reference)
+    return "no longer simulation can settle it, smaller cells might: interpolation between the "
+           "result's points is too uncertain";
+  return verdict.check.against.starts_with("run:")
+             ? "a longer average of the run that it is judged by would settle it"
              : "the reference cannot settle it: its own uncertainty is too large";
 }
 
@@ -54,7 +59,7 @@ std::string what_would_settle(const Verdict& verdict) {
   // The wider side: the other one may end at 0, which no metric goes below.
   const double half_width = std::max(metric.hi - metric.value, metric.value - metric.lo);
   const double fixed = std::min(metric.fixed_half_width, half_width);
-  if (fixed >= distance) return std::string(what_limits(verdict.comparison));
+  if (fixed >= distance) return std::string(what_limits(verdict));
   const double longer =
       (half_width * half_width - fixed * fixed) / (distance * distance - fixed * fixed);
   if (longer > 1e4) return "the value is too near to the limit for any simulation to settle it";
@@ -62,25 +67,52 @@ std::string what_would_settle(const Verdict& verdict) {
 }
 
 /// Points that a metric of logarithms leaves out.
-std::ptrdiff_t without_logarithm(const Verdict& verdict) {
+std::size_t without_logarithm(const Verdict& verdict) {
   const auto& points = verdict.comparison.points;
   if (points.empty() || !find_metric(verdict.check.metric).of_logarithms) return 0;
-  return std::count_if(points.begin(), points.end(), [](const ComparedPoint& point) {
-    return !(point.result > 0 && point.reference > 0);
-  });
+  return static_cast<std::size_t>(
+      std::count_if(points.begin(), points.end(),
+                    [](const ComparedPoint& point) { return !point.has_logarithm(); }));
 }
 
-std::string reason_of(const Verdict& verdict) {
+/// Uncertainties that leave too few points a logarithm: nothing can be said, which is no error of
+/// the study. Values that are not above 0 are one, see evaluate().
+bool leaves_too_few_logarithms(const Metric& metric, Verdict& verdict) {
+  const auto& points = verdict.comparison.points;
+  const auto positive = std::count_if(points.begin(), points.end(), [](const ComparedPoint& point) {
+    return point.result > 0 && point.reference > 0;
+  });
+  const std::size_t left = points.size() - without_logarithm(verdict);
+  if (left >= metric.least_points || positive < std::ptrdiff_t(metric.least_points)) return false;
+  verdict.metric.value = verdict.metric.lo = verdict.metric.hi = std::nan("");
+  verdict.outcome = Outcome::undecided;
+  verdict.reason = fmt::format(
+      "{}: {} of {} points are above 0 by more than their uncertainty, expected {} at least",
+      metric.name, left, points.size(), metric.least_points);
+  return true;
+}
+
+/// `why`: besides an interval that holds the limit, what keeps the check from being decided.
+std::string reason_of(const Verdict& verdict, const std::string& why = "") {
   std::string text = standing(verdict);
   if (!verdict.comparison.outside.empty())
-    text += fmt::format("; {} of {} points of the reference lie outside the result",
-                        verdict.comparison.outside.size(), verdict.reference.points.size());
+    text += fmt::format("; {} of {} points of the reference lie outside the result{}",
+                        verdict.comparison.outside.size(), verdict.reference.points.size(),
+                        verdict.comparison.in_gaps > 0 ? ", or in a gap of it" : "");
   if (!verdict.comparison.without_error.empty())
     text += fmt::format("; at {} more the result has no interval, and is not compared",
                         verdict.comparison.without_error.size());
   if (const auto without = without_logarithm(verdict); without > 0)
-    text += fmt::format("; {} of {} points have no logarithm", without,
-                        verdict.comparison.points.size());
+    text += fmt::format(
+        "; {} of {} points are not above 0 by more than their uncertainty, and have no logarithm",
+        without, verdict.comparison.points.size());
+  const auto& of_profile = verdict.result.at;
+  if (find_shape(verdict.check.metric) != nullptr && verdict.metric.points < of_profile.size())
+    text += fmt::format("; {} of {} points of the profile have no value, or no interval",
+                        of_profile.size() - verdict.metric.points, of_profile.size());
+  if (const auto& m = verdict.metric; m.points_drawn < m.points)
+    text += fmt::format("; its interval was drawn at {} of {} points", m.points_drawn, m.points);
+  if (!why.empty()) return text + why;
   if (verdict.outcome == Outcome::undecided) text += "; " + what_would_settle(verdict);
   return text;
 }
@@ -105,42 +137,55 @@ bool too_uncertain(const Verdict& verdict, std::string& why) {
       "; 1.96 u_val reaches {:.2g} of the mean, above the accuracy of {:.2g} asked for: ",
       coverage_factor * largest / std::abs(mean), verdict.check.accuracy);
   if (!std::isfinite(longer))
-    why += what_limits(verdict.comparison);
+    why += what_limits(verdict);
   else
     why += in_time(verdict.result.duration, longer);
   return true;
 }
 
-void compare_with_reference(Verdict& verdict) {
-  const auto& check = verdict.check;
-  if (check.metric == "area") {
-    if (!verdict.result.is_distribution)
-      throw InputError("area: {} is no distribution: expected another metric",
-                       check.place.quantity);
-    verdict.metric = evaluate_area(verdict.result, verdict.reference);
-    verdict.outcome = judge(verdict.metric, verdict.limit, true);
-    verdict.reason = reason_of(verdict);
-    return;
+/// Whether the reference was turned round.
+bool judge_area(Verdict& verdict) {
+  if (!verdict.result.is_distribution)
+    throw InputError("area: {} is no distribution: expected another metric",
+                     verdict.check.place.quantity);
+  verdict.metric = evaluate_area(verdict.result, verdict.reference);
+  bool is_turned = false;
+  if (!verdict.reference.about.orientation_known) {
+    auto turned = verdict.reference;
+    turned.points = turned_round(verdict.result, turned.points);
+    const auto other = evaluate_area(verdict.result, turned);
+    is_turned = other.value < verdict.metric.value;
+    if (is_turned) {
+      verdict.metric = other;
+      verdict.reference = std::move(turned);
+    }
   }
-  const auto& metric = find_metric(check.metric);
+  verdict.outcome = judge(verdict.metric, verdict.limit, true);
+  verdict.reason = reason_of(verdict);
+  return is_turned;
+}
+
+bool judge_errors(Verdict& verdict) {
+  const auto& metric = find_metric(verdict.check.metric);
   verdict.small_is_good = metric.small_is_good;
   verdict.comparison = compare(verdict.result, verdict.reference, metric.least_points);
+  if (leaves_too_few_logarithms(metric, verdict)) return verdict.comparison.mirrored;
   verdict.metric = evaluate(metric, verdict.comparison);
   verdict.outcome = judge(verdict.metric, verdict.limit, metric.small_is_good);
   std::string why;
   if (verdict.outcome == Outcome::holds && too_uncertain(verdict, why))
     verdict.outcome = Outcome::undecided;
-  verdict.reason = why.empty() ? reason_of(verdict) : standing(verdict) + why;
-  if (verdict.comparison.mirrored)
-    verdict.assumptions.push_back(
-        verdict.reference.name +
-        ": which wall is which is not stated; both ways were tried, turned "
-        "round it fits better");
-  else if (!verdict.reference.about.orientation_known)
-    verdict.assumptions.push_back(
-        verdict.reference.name +
-        ": which wall is which is not stated; both ways were tried, as it "
-        "stands it fits better");
+  verdict.reason = reason_of(verdict, why);
+  return verdict.comparison.mirrored;
+}
+
+void compare_with_reference(Verdict& verdict) {
+  const bool is_turned =
+      verdict.check.metric == "area" ? judge_area(verdict) : judge_errors(verdict);
+  if (!verdict.reference.about.orientation_known)
+    verdict.assumptions.push_back(fmt::format(
+        "{}: which wall is which is not stated; both ways were tried, {} it fits better",
+        verdict.reference.name, is_turned ? "turned round" : "as it stands"));
 }
 
 std::size_t snapshots_of(const RunResult& run) {
@@ -182,11 +227,25 @@ void decide_nothing_by_one_of_many(const RunResult& run, Verdict& verdict) {
           all, run.window.from);
 }
 
+/// An instant that a check asks for, of a run that averages over many.
+void say_what_an_instant_is(const RunResult& run, Verdict& verdict) {
+  const auto& at = verdict.check.place.at;
+  const auto asked = at.find("time");
+  if (asked == at.end() || run.window.snapshots < 2) return;
+  const auto [from, to] = std::pair(run.window.from, run.window.to);
+  if (!(asked->second >= from && asked->second <= to))
+    throw InputError("at.time = {} s: the run averages over {} to {} s", asked->second, from, to);
+  verdict.notes.push_back(
+      fmt::format("run \"{}\": the average over {} to {} s stands for at.time = {} s", run.label,
+                  from, to, asked->second));
+}
+
 Verdict judged_on(const Check& check, const RunResult& run, std::span<const RunResult> runs,
                   const Curves& curves, const std::string& study) {
   Verdict verdict{.check = check, .run = run.label, .limit = check.limit.value_or(0)};
   verdict.result = sample(run, check.place);
-  verdict.assumptions = verdict.result.notes;
+  verdict.notes = verdict.result.notes;
+  say_what_an_instant_is(run, verdict);
   if (!verdict.result.error_known)
     verdict.assumptions.push_back(without_intervals(run, verdict.result));
   if (const auto* shape = find_shape(check.metric)) {
@@ -224,6 +283,23 @@ std::string in_digits(double value, int digits) {
   if (text.find("e+") == text.npos || !(std::abs(value) < 1e6)) return text;
   const double unit = std::pow(10, std::floor(std::log10(std::abs(value))) + 1 - digits);
   return fmt::format("{:.0f}", std::round(value / unit) * unit);
+}
+
+std::string unit_text(const MetricValue& metric) {
+  return metric.unit == "-" ? "" : " " + metric.unit;
+}
+
+int digits_of(const Verdict& verdict) {
+  const auto rounded = [](double value, int digits) { return std::stod(in_digits(value, digits)); };
+  constexpr int most = 17;  // which tell any two doubles apart
+  for (int digits = 3; digits < most; ++digits) {
+    const MetricValue shown{.lo = rounded(verdict.metric.lo, digits),
+                            .hi = rounded(verdict.metric.hi, digits)};
+    if (judge(shown, rounded(verdict.limit, digits), verdict.small_is_good) ==
+        judge(verdict.metric, verdict.limit, verdict.small_is_good))
+      return digits;
+  }
+  return most;
 }
 
 std::string reference_name(const Verdict& verdict) {

@@ -30,11 +30,19 @@ struct Verdict {
   Sampled result;
   Curve reference;                       ///< no points for shapes
   Comparison comparison;                 ///< no points for shapes and distributions
+  std::vector<std::string> notes;        ///< what else is to be known of the result
   std::vector<std::string> assumptions;  ///< uncertainties and orientations that nobody stated
 };
 
 /// A number for people, rounded to so many digits; with an exponent only from a million on.
 std::string in_digits(double value, int digits);
+
+/// " K" of a metric that has a unit, nothing of one that has none.
+std::string unit_text(const MetricValue& metric);
+
+/// Digits in which a verdict's interval and limit are told apart as they were judged: three, or as
+/// many as it takes.
+int digits_of(const Verdict& verdict);
 
 /// What was or, where it is missing, should have been the reference; empty for shapes.
 std::string reference_name(const Verdict& verdict);

@@ -102,6 +102,100 @@ class Validate(unittest.TestCase):
         self.assertNotIn("<script", page)
         self.assertIn("Carlos Varas", page)
 
+    def test_long_curves_give_a_page_that_can_be_sent(self):
+        os.makedirs(self.folder + "/long/tables")
+        rng, z = np.random.default_rng(3), (np.arange(20000) + 0.5) / 20000
+        with open(self.folder + "/long/tables/axial_profile.csv", "w") as file:
+            file.write("z [m],holdup [-],holdup_ci95 [-]\n")
+            file.writelines(f"{a},{0.1 - 0.05 * a + e},0.004\n" for a, e in zip(z, 0.002 * rng.normal(size=20000)))
+        with open(self.folder + "/long.csv", "w") as file:
+            file.write("z [m],holdup [-],holdup_u [-]\n")
+            file.writelines(f"{a},{0.1 - 0.05 * a},0.002\n" for a in z)
+        path = self.folder + "/study_of_long.toml"
+        with open(path, "w") as file:
+            file.write('[[run]]\nlabel = "a"\ntables = "long"\n[[check]]\nquantity = "axial holdup"\n'
+                       'against = "long.csv"\nmetric = "relative rmse"\nlimit = 0.1\n')
+        done = self.validate(path)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertIn("its interval was drawn at 1000 of 20000 points", done.stdout)
+        self.assertLess(os.path.getsize(self.folder + "/out/report.html"), 2e6)  # two panels of a megabyte
+        with open(self.folder + "/out/report.html") as file:
+            self.assertIn("More points than can be seen (20000 of the result, 20000 of the reference)", file.read())
+
+    def series(self, times, values):
+        os.makedirs(self.folder + "/a/tables", exist_ok=True)
+        with open(self.folder + "/a/tables/series.csv", "w") as file:
+            file.write("series,unit,time [s],value\n")
+            file.writelines(f"dp,Pa,{t},{v}\n" for t, v in zip(times, values))
+        return self.study(['quantity = "series: dp"\nagainst = 100\nmetric = "relative bias"\nlimit = 0.5'])
+
+    def test_what_makes_the_mean_of_a_series_doubtful_is_said(self):
+        rng, t = np.random.default_rng(5), np.arange(1000) / 100
+        for values, said in ((100 + rng.normal(size=1000), ""), (100 + t + rng.normal(size=1000), "may not be steady"),
+                             ([99, 101, 100], "3 independent samples, too few")):
+            done = self.validate(self.series(t[:len(values)], values))
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual('run "a": dp:' in done.stdout, said != "", done.stdout)
+            self.assertIn(said, done.stdout)
+
+    def test_names_of_any_letters_are_drawn_as_they_are(self):
+        label, name = "Lauf <1> & \"größe\" 温度 ]]>", "T_gas {x} ^2 @ &<b> ]]>"
+        with open(self.series([0, 1, 2], [99, 101, 100]), "r+") as file:
+            study = file.read().replace('label = "a"', "label = " + json.dumps(label, ensure_ascii=False))
+            file.seek(0)
+            file.write(study.replace("series: dp", "series: " + name))
+        with open(self.folder + "/a/tables/series.csv", "r+") as file:
+            rows = file.read().replace("dp,", name + ",")
+            file.seek(0)
+            file.write(rows)
+        self.assertEqual(self.validate(self.folder + "/study.toml").returncode, 0)
+        self.assertIn(label, xml.parse(self.folder + "/out/junit.xml").getroot()[0][0].get("classname"))
+        picture = "".join(xml.parse(self.folder + "/out/checks/check_01.svg").getroot().itertext())
+        for words in (label, name):
+            self.assertIn(words, picture.replace("\u200b", "").replace("\n", ""))
+
+    def test_figures_of_tiny_values_and_of_many_runs_can_be_read(self):
+        runs = ""
+        for k in range(20):
+            os.makedirs(f"{self.folder}/r{k}")
+            with open(f"{self.folder}/r{k}/axial_profile.csv", "w") as file:
+                file.write("z [m],holdup [-],holdup_ci95 [-]\n")
+                file.writelines(f"{z / 9},{(1 + z) * 1e-12},1e-15\n" for z in range(10))
+            runs += f'[[run]]\nlabel = "run {k}"\ntables = "r{k}"\n'
+        with open(self.folder + "/many.toml", "w") as file:
+            file.write(runs + '[[check]]\nquantity = "axial holdup"\nagainst = 5e-12\nmetric = "max error"\nlimit = 1\n')
+        self.assertEqual(self.validate(self.folder + "/many.toml").returncode, 0)
+        texts = {name: list(xml.parse(f"{self.folder}/out/checks/{name}.svg").getroot().itertext())
+                 for name in ("check_01", "quantity_01")}
+        for name, words in (("check_01", "axial holdup [10⁻¹²]"), ("check_01", "error [10⁻¹²]"),
+                            ("quantity_01", "20 runs"), ("quantity_01", "result axial holdup [10⁻¹²]")):
+            self.assertIn(words, [text.strip() for text in texts[name]])
+        self.assertNotIn("0.000", "".join(texts["check_01"]))
+
+    def test_a_study_that_is_named_as_its_curve_is_told_from_a_sidecar(self):
+        study = self.study(['quantity = "axial holdup"\nagainst = "study.csv"\nmetric = "max error"\nlimit = 1'])
+        with open(self.folder + "/study.csv", "w") as file:
+            file.write("z [m],holdup [-]\n0.1,0.1\n")
+        self.assertIn("read as the sidecar of " + self.folder + "/study.csv", self.validate(study).stderr)
+
+    def test_columns_that_are_taken_for_the_curve_are_named(self):
+        study = self.study(['quantity = "axial holdup"\nagainst = "r.csv"\nmetric = "max error"\nlimit = 1'])
+        with open(self.folder + "/r.csv", "w") as file:
+            file.write("z [m],holdup [-],holdup_std [-]\n" + "".join(f"{k / 50},0.1,0.01\n" for k in range(50)))
+        told = self.validate(study).stderr
+        self.assertIn("several curves of holdup_std [-] against holdup [-]", told)
+        self.assertIn("z = 0.0, 0.02 ... 0.98 (50 values)", told)
+
+    def test_nothing_is_compared_in_a_gap_of_the_result(self):
+        study = self.study(['quantity = "axial holdup"\nagainst = "r.csv"\nmetric = "max error"\nlimit = 1'])
+        with open(self.folder + "/a/tables/axial_profile.csv", "w") as file:
+            file.write("z [m],holdup [-],holdup_ci95 [-]\n")
+            file.writelines(f"{z / 50},{'nan' if 10 < z < 20 else 0.1},0.001\n" for z in range(51))
+        with open(self.folder + "/r.csv", "w") as file:
+            file.write("z [m],holdup [-]\n" + "".join(f"{k / 10},0.1\n" for k in range(11)))
+        self.assertIn("1 of 11 points of the reference lie outside the result, or in a gap of it",
+                      self.validate(study).stdout)
+
     def test_another_velocitys_experiment_is_rejected(self):
         study = self.study(['quantity = "axial holdup"\nagainst = "varas_2017/axial_holdup?U=6.74"\n'
                             'metric = "relative rmse"\nlimit = 0.25'])
@@ -224,8 +318,9 @@ class Validate(unittest.TestCase):
                              ({"limit": '"a"'}, "limit"),
                              ({"limit": "-0.1"}, "expected at least 0"),
                              ({"metric": '"rank correlation"', "limit": "2"}, "expected -1 to 1"),
-                             ({"at": "{ hight = 1 }"}, "nearest known one is at.height"),
+                             ({"at": "{ hight = 1 }"}, "unknown key at.hight of axial holdup; expected at.U, at.time"),
                              ({"against": "0.1", "at": "{ U = 5.55 }"}, "unknown key at.U"),
+                             ({"against": "0.1", "at": "{ height = 0.5 }"}, "unknown key at.height of axial holdup"),
                              ({"against": '"run:a"'}, "a run against itself"),
                              ({"accuracy": "-1"}, "accuracy"),
                              ({"accuracy": "0.1"}, 'belongs to the metric "e over u"'),

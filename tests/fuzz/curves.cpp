@@ -24,7 +24,7 @@ std::string selection_of(const CurveSet& set) {
 
 void use_curve(const Curves& curves, const std::string& selection) {
   try {
-    const auto curve = curves.curve(selection, {{"height", 0.8}});
+    const auto curve = curves.curve(selection, {"lateral holdup", {{"height", 0.8}}});
     require(!curve.points.empty(), "a curve has points");
     for (std::size_t i = 0; i < curve.points.size(); ++i) {
       const auto& point = curve.points[i];

@@ -50,6 +50,21 @@ TEST(Compare, TheReferencesAbscissaErrsThroughTheSlope) {
   EXPECT_NEAR(found.points[0].u_validation(), std::sqrt(.01 * .01 + .08 * .08 + .06 * .06), 1e-12);
 }
 
+TEST(Compare, TheNoiseOfNeighboursIsNoSlope) {
+  // y = 2 x + 0.1 to and fro between points 1 mm apart: over the reach of +-30 mm the noise moves
+  // the ordinate by 0.1 at most, and the slope by 0.06.
+  Sampled noisy{.x = {"z", "m"}, .y = {"axial holdup", "-"}};
+  for (int i = 0; i <= 1000; ++i) {
+    noisy.at.push_back(i * .001);
+    noisy.value.push_back(2 * noisy.at.back() + (i % 2 == 0 ? .1 : -.1));
+    noisy.u.push_back(0);
+  }
+  const auto found = compare(noisy, reference({{.5, 1, .03, 0}, {.9999, 2, .03, 0}}));
+  EXPECT_LE(found.points[0].u_reference, .06 + .1);
+  EXPECT_LE(found.points[1].u_reference, .06 + .2);  // the half of it that lies inside
+  EXPECT_GE(found.points[0].u_reference, .06 - 1e-12);
+}
+
 TEST(Compare, TheArmOfABarThatFacesTheResultCounts) {
   const auto above = compare(straight_line(), reference({{.5, .9, 0, .3, .1}}));  // result 1
   EXPECT_DOUBLE_EQ(above.points[0].u_reference, .3);
@@ -82,6 +97,17 @@ TEST(Compare, ValuesThatNobodySawAreLeftOut) {
   const auto found = compare(line, reference({{.05, 0}, {.5, 1}}));
   EXPECT_EQ(found.points.size(), 1U);
   EXPECT_EQ(found.outside.size(), 1U);
+}
+
+TEST(Compare, NothingIsInterpolatedAcrossAGap) {
+  auto line = straight_line();
+  line.value[4] = line.value[5] = line.value[8] = NAN;  // 0.3 to 0.6, 0.7 to 0.9
+  const auto found =
+      compare(line, reference({{.3, 0}, {.31, 0}, {.45, 0}, {.6, 0}, {.65, 0}, {.8, 0}, {1, 0}}));
+  ASSERT_EQ(found.points.size(), 4U);
+  EXPECT_EQ(found.points[1].x, .6);
+  EXPECT_EQ(found.outside.size(), 3U);
+  EXPECT_EQ(found.in_gaps, 3U);
 }
 
 TEST(Compare, UnitsHaveToAgree) {

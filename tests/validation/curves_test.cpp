@@ -69,8 +69,9 @@ TEST(Shipped, StatedIntervalsBecomeStandardUncertainties) {
 
 TEST(Selection, ThePlaceOfACheckChoosesWhatTheNameDoesNot) {
   const auto curves = open(shipped);
-  const auto named = curves.curve("varas_2017/lateral_holdup?U=5.55&height=0.8");
-  const auto placed = curves.curve("varas_2017/lateral_holdup?U=5.55", {{"height", 0.8}});
+  const auto named = curves.curve("varas_2017/lateral_holdup?U = 5.55 & height=0.8");
+  const auto placed =
+      curves.curve("varas_2017/lateral_holdup?U=5.55", {"lateral holdup", {{"height", 0.8}}});
   ASSERT_EQ(named.points.size(), 22U);
   ASSERT_EQ(placed.points.size(), named.points.size());
   EXPECT_EQ(placed.points[3].y, named.points[3].y);

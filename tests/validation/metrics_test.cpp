@@ -53,6 +53,7 @@ TEST(Metrics, RankCorrelationKnowsTies) {
   // By hand: ranks 1 2.5 2.5 4 and 1 2 3 4 give 9 / sqrt(9 * 10) ... = 4.5 / sqrt(4.5 * 5).
   EXPECT_NEAR(value("rank correlation", comparison({1, 2, 2, 4}, {1, 2, 3, 4})),
               4.5 / std::sqrt(4.5 * 5), 1e-12);
+  EXPECT_THROW(value("rank correlation", comparison({1, 2, 3, 4}, {1, 1, 1, 1})), InputError);
 }
 
 TEST(Metrics, NamesAndZeroMeansAreToldApart) {
@@ -76,6 +77,16 @@ TEST(Metrics, ModelBiasAndScatterAreThoseOfTheFactor) {
   EXPECT_NEAR(value("model bias", vague), std::exp(mean + (variance - .0041 - .0025) / 2) - 1,
               1e-12);
   EXPECT_THROW(value("model scatter", comparison({1, -1, 1}, {1, 1, 1})), InputError);
+}
+
+TEST(Metrics, OfTheFactorLeaveOutWhatIsNotToldFromZero) {
+  // A result that is right but for a factor of 1.1; where the reference is 1e-5 its relative
+  // uncertainty of 2,000 would make a bias of e^-100,000.
+  const auto c = comparison({1.1, 2.2, 1.1e-5, 1.1, 2.2}, {1, 2, 1e-5, 1, 2}, 0, .02);
+  const auto bias = evaluate(find_metric("model bias"), c);
+  EXPECT_NEAR(bias.value, .1, 2e-3);
+  EXPECT_LT(bias.hi, .16);
+  EXPECT_EQ(bias.points, 4U);
 }
 
 TEST(Intervals, OfALargestErrorAddTheErrorOfTheMeanThatScalesIt) {
@@ -111,7 +122,7 @@ TEST(Intervals, OfADifferenceAllowForErrorsThatNeighboursShare) {
   for (int i = 0; i <= 40; ++i)
     for (int j = 0; j <= 40; ++j)
       variance += weight[i] * weight[j] * .01 * std::exp(-std::abs(i - j) / 40. / .2);
-  const auto found = with_interval(curve, [&](std::span<const double> y) {
+  const auto found = with_interval(curve, [&](std::span<const double>, std::span<const double> y) {
     double sum = 0;
     for (std::size_t i = 0; i < y.size(); ++i) sum += weight[i] * y[i];
     return sum;
@@ -204,6 +215,39 @@ TEST(Intervals, OfErrorOverUncertaintyAreItsValue) {
   const auto found = evaluate(find_metric("e over u"), comparison({3, 3}, {2, 2}, .3, .4));
   EXPECT_DOUBLE_EQ(found.lo, found.value);
   EXPECT_DOUBLE_EQ(found.hi, found.value);
+}
+
+/// 20,000 points, E = 1 plus a wave of 20 points, which each 20th of them keeps time with.
+Comparison wave(double u_reference) {
+  std::vector<double> result;
+  for (int i = 0; i < 20000; ++i) result.push_back(3 + .5 * std::sin(M_PI * i / 10));
+  return comparison(result, std::vector<double>(result.size(), 2), 0, u_reference);
+}
+
+TEST(Intervals, OfManyPointsAreDrawnAtSomeAndTheValueIsOfAll) {
+  const double rmse = std::sqrt(1 + .125) / 2;
+  const auto exact = evaluate(find_metric("relative rmse"), wave(0));
+  EXPECT_NEAR(exact.value, rmse, 1e-12);
+  EXPECT_LE(exact.lo, exact.value);
+  EXPECT_GE(exact.hi, exact.value);
+  // E^2 has a deviation of 1.008 about 1.125; of 1,000 points a mean square errs by 2.8 %, three of
+  // which are 4.3 % of the root.
+  EXPECT_NEAR(exact.hi, exact.lo, .043 * rmse);
+  EXPECT_EQ(exact.points, 20000);
+  EXPECT_EQ(exact.points_drawn, 1000);
+  // A common error of 0.1: the rmse moves by u / m to first order, as <E> / rms E = 0.94 of it, and
+  // with the mean that it is in units of.
+  const auto common = evaluate(find_metric("relative rmse"), wave(.1));
+  const auto of_e = [](double e) { return std::sqrt(std::pow(1 - e, 2) + .125) / (2 + e); };
+  EXPECT_NEAR(common.hi, of_e(-.196), .05 * (of_e(-.196) - rmse));
+  EXPECT_NEAR(common.lo, of_e(.196), .1 * (rmse - of_e(.196)));
+}
+
+TEST(Intervals, OfAThousandPointsAreDrawnAtAll) {
+  const auto found =
+      evaluate(find_metric("relative bias"),
+               comparison(std::vector<double>(1000, 3), std::vector<double>(1000, 2), .1));
+  EXPECT_EQ(found.points_drawn, found.points);
 }
 
 TEST(Intervals, AreTheSameEachTime) {

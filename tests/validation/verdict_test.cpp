@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <fstream>
 
 #include "readers/error.hpp"
 #include "validation/family.hpp"
@@ -91,6 +93,106 @@ TEST(Verdicts, PointsWithoutAnIntervalAreCounted) {
   EXPECT_EQ(verdict.outcome, Outcome::holds);
   EXPECT_NE(verdict.reason.find("at 10 more the result has no interval"), std::string::npos)
       << verdict.reason;
+}
+
+/// Ten snapshots a place, each with one cluster there; the lateral axis goes from 0 to 1 m.
+analysis::RunResult run_with_clusters(const std::vector<double>& places) {
+  auto result = run("a", 1, .001);
+  result.grid.min[0] = 0;
+  result.grid.max[0] = 1;
+  result.window = {.from = 0, .to = 1e9, .snapshots = 10 * places.size()};
+  for (std::size_t i = 0; i < 10 * places.size(); ++i) {
+    result.occurrence.push_back({static_cast<double>(i), 1});
+    analysis::Cluster cluster;
+    cluster.snapshot = i;
+    cluster.centre.x = places[i / 10];
+    result.clusters.push_back(cluster);
+  }
+  return result;
+}
+
+TEST(Verdicts, OfAnAreaWhoseOrientationIsNotKnownTryBoth) {
+  const auto folder = testing::TempDir();
+  std::ofstream(folder + "/places.csv") << "x over width [-],density [-],density_u [-]\n"
+                                           "0.25,0.5,0.01\n0.75,1.5,0.01\n";
+  const Check check{.place = {.quantity = "cluster position"},
+                    .against = folder + "/places.csv",
+                    .metric = "area",
+                    .limit = .1};
+  const auto left = run_with_clusters({.1, .2, .3, .4, .1, .3, .2, .4, .1, .9, .7, .8});
+  std::ofstream(folder + "/places.toml") << "orientation = \"unknown\"\n";
+  const auto turned = verdict_of(check, left);
+  std::ofstream(folder + "/places.toml") << "orientation = \"known\"\n";
+  const auto as_it_stands = verdict_of(check, left);
+  EXPECT_LT(turned.metric.value, .1);
+  EXPECT_GT(as_it_stands.metric.value, .2);
+  EXPECT_EQ(turned.reference.points.front().y, 1.5);
+  const auto said = [](const Verdict& verdict, const char* words) {
+    return std::any_of(verdict.assumptions.begin(), verdict.assumptions.end(),
+                       [&](const auto& each) { return each.find(words) != each.npos; });
+  };
+  EXPECT_TRUE(said(turned, "turned round it fits better"));
+  EXPECT_FALSE(said(as_it_stands, "both ways"));
+}
+
+TEST(Verdicts, OfPlacesOfClustersAreOfTheWindowAndOfSnapshotsThatKnowEachOther) {
+  auto clusters = run_with_clusters({.1, .3, .6, .9, .1, .3, .6, .9, .1, .3, .6, .9});
+  const auto all = sample(clusters, {.quantity = "cluster position"});
+  // A bin has 30 of 120 clusters, which as counts err by sqrt(31) / 120 = 0.046; as 12 places that
+  // are seen ten times each by sqrt(0.25 * 0.75 / 12) = 0.125. Bins are a twentieth wide.
+  EXPECT_DOUBLE_EQ(all.value[2], .25 * 20);
+  EXPECT_GT(all.u[2], .1 * 20);
+  EXPECT_LT(all.u[2], .25 * 20);
+  EXPECT_DOUBLE_EQ(all.u[4], 1 / 120. * 20);  // none seen
+  clusters.window.to = 9;
+  EXPECT_DOUBLE_EQ(sample(clusters, {.quantity = "cluster position"}).value[2], 20);
+}
+
+TEST(Verdicts, OfAFactorUnderInflatedUncertaintiesAreUndecided) {
+  const auto check = against(.075, "model bias", .5);
+  const auto vague = verdict_of(check, run("a", 1, .5));
+  EXPECT_EQ(vague.outcome, Outcome::undecided);
+  EXPECT_NE(vague.reason.find("0 of 1 points are above 0"), std::string::npos) << vague.reason;
+  EXPECT_THROW(verdict_of(check, run("a", -1, .001)), InputError);
+}
+
+TEST(Verdicts, JustBesideTheirLimitAreShownInDigitsThatTellThem) {
+  const auto beside = verdict_of(against(1, "max error", .5), run("a", 20 + 1e-7, 0));
+  EXPECT_EQ(beside.outcome, Outcome::does_not_hold);
+  EXPECT_NE(beside.reason.find("0.50000001 ["), std::string::npos) << beside.reason;
+  const auto within = verdict_of(against(1, "max error", .6), run("a", 20, 0));
+  EXPECT_NE(within.reason.find("0.5 [0.5, 0.5]"), std::string::npos) << within.reason;
+}
+
+TEST(Verdicts, SayTheUnitOfWhatHasOne) {
+  auto warm = run("a", 1, .001);
+  warm.series.push_back({"T", "K", {6, 7, 8, 9}, {300, 301, 302, 301}});
+  Check check{.place = {.quantity = "series: T"}, .number = 300, .metric = "max error", .limit = 9};
+  EXPECT_NE(verdict_of(check, warm).reason.find("] K against at most 9 K"), std::string::npos);
+  check.metric = "relative bias";
+  EXPECT_EQ(verdict_of(check, warm).reason.find(" K"), std::string::npos);
+}
+
+TEST(Verdicts, OfAnInstantSayWhatStandsForIt) {
+  auto check = against(.075, "relative bias", .5);
+  check.place.at["time"] = 7;
+  const auto found = verdict_of(check, run("a", 1, .001));  // 5 to 15 s
+  ASSERT_FALSE(found.notes.empty());
+  EXPECT_NE(found.notes[0].find("5 to 15 s stands for at.time = 7 s"), std::string::npos);
+  check.place.at["time"] = 17;
+  EXPECT_THROW(verdict_of(check, run("a", 1, .001)), InputError);
+}
+
+TEST(Verdicts, ThatAreTooVagueStillCountWhatLiesOutside) {
+  auto check = against(.075, "e over u", 4);
+  check.number_u = .02;
+  check.place.quantity = "axial holdup";
+  auto patchy = run("a", 1.005, .001);
+  for (int i = 40; i < 50; ++i) patchy.species[0].axial.holdup[i] = {9, NAN};
+  const auto vague = verdict_of(check, patchy);
+  EXPECT_EQ(vague.outcome, Outcome::undecided);
+  EXPECT_NE(vague.reason.find("at 10 more"), std::string::npos) << vague.reason;
+  EXPECT_NE(vague.reason.find("accuracy"), std::string::npos) << vague.reason;
 }
 
 TEST(Verdicts, ErrorOverUncertaintyAlsoNeedsAnAccuracy) {
