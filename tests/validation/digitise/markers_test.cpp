@@ -226,5 +226,150 @@ TEST(ErrorBars, WhatResemblesAMarkerLittleAndLiesOnABarIsNone) {
   EXPECT_EQ(markers.back().at, at[3] + cv::Point2d(20, 29));
 }
 
+/// Open markers filled with paper, on a bar.
+void add_on_bar(InkMap& map, Outline outline, double size, cv::Point2d at, double length) {
+  add_bar(map, at, length, 1.5, 4);
+  map.coverage.setTo(0, marker_at({outline, Fill::filled}, size, 1, at) > 0.5F);
+  add(map, marker_at({outline, Fill::open}, size, 1.5, at));
+}
+
+TEST(Learn, SeriesOfOneInkByTheirShapesThoughBarsGoThroughThem) {
+  auto map = empty();
+  std::vector<cv::Point2d> circles, diamonds;
+  for (int i = 0; i < 12; ++i) circles.emplace_back(25.3 + 33.4 * i, 70.2 + 20 * std::sin(0.9 * i));
+  for (int i = 0; i < 4; ++i) diamonds.emplace_back(60.3 + 80.4 * i, 180.6 - 9.5 * i);
+  for (const auto at : circles) add_on_bar(map, Outline::circle, 13, at, 20);
+  for (const auto at : diamonds) add_on_bar(map, Outline::diamond, 18, at, 22);
+  const Shape circle{Outline::circle, Fill::open}, diamond{Outline::diamond, Fill::open};
+  MarkerQuery of_diamonds, of_circles;
+  of_diamonds.shape = diamond;
+  of_circles.shape = circle;
+  of_diamonds.among = of_circles.among = {circle, diamond};
+  of_diamonds.rivals = {circle};
+  of_circles.rivals = {diamond};
+  const auto learned = learn_all(map, {of_diamonds, of_circles});
+  ASSERT_TRUE(learned[0] && learned[1]);
+  const auto found = find_markers(map, {*learned[0], *learned[1]});
+  EXPECT_EQ(found[0].size(), diamonds.size());
+  EXPECT_EQ(found[1].size(), circles.size());
+  for (const auto& one : found[0])
+    EXPECT_TRUE(std::any_of(diamonds.begin(), diamonds.end(),
+                            [&](cv::Point2d at) { return cv::norm(one.at - at) < 0.5; }));
+}
+
+TEST(Learn, DashesOfALineBesideItsMarkersAreNone) {
+  auto map = empty();
+  const auto at = places(9);
+  for (std::size_t i = 1; i < at.size(); ++i) {
+    const auto way = at[i] - at[i - 1];
+    for (double t = 0.03; t < 0.9; t += 0.24)
+      add(map, stroke_from(at[i - 1] + t * way, at[i - 1] + (t + 0.14) * way, 2.5));
+  }
+  for (const auto place : at) {
+    map.coverage.setTo(0, marker_at({Outline::triangle, Fill::filled}, 15, 1, place) > 0.5F);
+    add(map, marker_at({Outline::triangle, Fill::open}, 15, 1.6, place));
+  }
+  cv::GaussianBlur(map.coverage, map.coverage, {}, 0.8);
+  MarkerQuery query;
+  query.with_line = true;
+  const auto marker = learn(map, query);
+  ASSERT_TRUE(marker);
+  EXPECT_EQ(name_of(marker->shape), "open triangle");
+  EXPECT_EQ(find_markers(map, {*marker})[0].size(), at.size());
+}
+
+TEST(Learn, AMarkerShownWithTheLineThatPassesIt) {
+  auto map = empty();
+  const auto at = places(9);
+  for (std::size_t i = 1; i < at.size(); ++i) add(map, stroke_from(at[i - 1], at[i], 3));
+  for (const auto place : at) {
+    map.coverage.setTo(0, marker_at({Outline::triangle, Fill::filled}, 22, 1, place) > 0.5F);
+    add(map, marker_at({Outline::triangle, Fill::open}, 22, 2.5, place));
+  }
+  MarkerQuery query;
+  query.sample =
+      map.coverage(cv::Rect(cv::Point(at[2]) - cv::Point(16, 16), cv::Size(33, 33))).clone();
+  const auto marker = learn(map, query);
+  ASSERT_TRUE(marker);
+  EXPECT_EQ(find_markers(map, {*marker})[0].size(), at.size());
+}
+
+TEST(Template, ASmallBlurredTriangleIsNoPentagon) {
+  cv::Mat ink = draw_shape({Outline::triangle, Fill::filled}, {11, 11}, 1, {21, 21});
+  cv::GaussianBlur(ink, ink, {}, 1.4);
+  const auto marker =
+      reshaped(make_template(ink, {Outline::pentagon, Fill::filled}), candidates(std::nullopt));
+  EXPECT_EQ(marker.shape.outline, Outline::triangle);
+  const auto round =
+      reshaped(make_template(draw_shape({Outline::circle, Fill::filled}, {11, 11}, 1, {21, 21}),
+                             {Outline::pentagon, Fill::filled}),
+               {{Outline::triangle, Fill::filled}, {Outline::pentagon, Fill::filled}});
+  EXPECT_EQ(round.shape.outline, Outline::pentagon);
+}
+
+TEST(ErrorBars, BehindTheGapThatGnuplotLeavesRoundAMarker) {
+  auto map = empty();
+  const Shape square{Outline::square, Fill::filled};
+  const cv::Point2d at(100.4, 120.3);
+  add_bar(map, at, 30, 2, 5);
+  map.coverage.setTo(0, marker_at(square, 17, 1, at) > 0.5F);
+  add(map, marker_at(square, 11, 1, at));
+  const auto marker = make_template(draw_shape(square, {11, 11}, 1, {15, 15}), square);
+  const auto bar = find_error_bar(map, marker, at, false);
+  EXPECT_NEAR(bar.upper, at.y - 30, 0.5);
+  EXPECT_NEAR(bar.lower, at.y + 30, 0.5);
+  // The marker below another is no bar.
+  auto two = empty();
+  add(two, marker_at({Outline::circle, Fill::filled}, 11, 1, {200.5, 100}));
+  add(two, marker_at({Outline::circle, Fill::filled}, 11, 1, {200.5, 114}));
+  const auto none = find_error_bar(two, marker, {200.5, 100}, false);
+  EXPECT_TRUE(std::isnan(none.lower));
+}
+
+TEST(ErrorBars, OnABarIsAMarkerOnlyByInkThatIsNotTheBars) {
+  auto map = empty();
+  const Shape triangle{Outline::triangle, Fill::open};
+  const auto at = places(6);
+  for (const auto place : at) {
+    add(map, marker_at(triangle, 12, 1.8, place));
+    add_bar(map, place, 30, 2, 6);
+  }
+  const cv::Point2d below(0, 18), cap(0, 25);
+  add(map, marker_at(triangle, 12, 1.8, at[4] + below));  // two of one abscissa
+  cv::GaussianBlur(map.coverage, map.coverage, {}, 1.3);
+  cv::Mat ink = draw_shape(triangle, {12, 12}, 1.8, {22, 22});
+  cv::GaussianBlur(ink, ink, {}, 1.3);
+  const auto marker = make_template(ink, triangle);
+  std::vector<Marker> markers;
+  const auto store = [&](cv::Point2d place) {
+    Marker one;
+    one.fit = fit(marker, map, place);
+    one.at = one.fit.origin + marker.reference;
+    markers.push_back(one);
+  };
+  for (const auto place : at) store(place);
+  store(at[4] + below);
+  store(at[1] + cap);  // is like a base
+  store(at[2] + cap);
+  ASSERT_GT(markers.back().fit.score, little_alike(markers));
+  drop_on_bars(map, marker, markers, false);
+  EXPECT_EQ(markers.size(), 7U);
+  EXPECT_NEAR(markers.back().fit.origin.y, at[4].y + below.y, 1);
+}
+
+TEST(ErrorBars, NothingIsLeftOfThickCapsUnderACover) {
+  auto map = empty();
+  const Shape square{Outline::square, Fill::filled};
+  const cv::Point2d at(100.4, 120.3);
+  add(map, marker_at(square, 30, 1, at));
+  add_bar(map, at, 70, 8, 20);
+  const auto marker = make_template(draw_shape(square, {30, 30}, 1, {34, 34}), square);
+  InkMap rest{map.coverage, map.unknown.clone()};
+  cover(rest, find_error_bar(map, marker, at, true), at);
+  cv::Mat left = map.coverage.clone();
+  left.setTo(0, rest.unknown);
+  EXPECT_LT(cv::sum(left.rowRange(0, 100))[0] + cv::sum(left.rowRange(140, rows))[0], 1);
+}
+
 }  // namespace
 }  // namespace bedscope::digitise
