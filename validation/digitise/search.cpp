@@ -69,6 +69,19 @@ std::vector<std::pair<double, cv::Point2d>> peaks(const cv::Mat& coverage, const
   return found;
 }
 
+/// Programs draw markers as wide as high, but for thin diamonds and flat triangles (an equilateral
+/// one is 0.87 as high as wide); a small one is off by its whole pixels. A sliver of a bar or of a
+/// line, that would explain more ink than a marker, is none.
+bool is_proportioned(Outline outline, cv::Size2d box) {
+  constexpr double rounding = 1.18;
+  const bool lying = outline == Outline::triangle_left || outline == Outline::triangle_right;
+  double narrowest = 1, widest = 1;
+  if (outline == Outline::diamond) narrowest = 0.6;
+  if (is_triangle(outline)) (lying ? narrowest : widest) = lying ? 0.87 : 1 / 0.87;
+  const double ratio = box.width / box.height;
+  return ratio > narrowest / rounding && ratio < widest * rounding;
+}
+
 /// The thickest stroke of a marker as a share of its width. An open one has a hole of three tenths
 /// of its inscribed circle or more; one without would lie as well as a filled one.
 double thickest_stroke(const Shape& shape) {
@@ -207,7 +220,7 @@ std::vector<Guess> guesses_of_holes(const InkMap& map, const std::vector<Shape>&
     guess.box = cv::Size2d(widths[widths.size() / 2] + 2 * guess.stroke,
                            heights[heights.size() / 2] + 2 * guess.stroke);
     for (const auto& shape : shapes) {
-      if (shape.fill != Fill::open || out_of_proportion(shape.outline, guess.box) > 1) continue;
+      if (shape.fill != Fill::open || !is_proportioned(shape.outline, guess.box)) continue;
       guess.shape = shape;
       guesses.push_back(guess);
     }
@@ -298,7 +311,7 @@ Guess refined(const Sizes::Level& level, Guess guess) {
             trial.stroke *= 1 + thick * way;
             if (trial.stroke < 0.5 ||
                 trial.stroke > thickest_stroke(guess.shape) * trial.box.width ||
-                out_of_proportion(trial.shape.outline, trial.box) > 1)
+                !is_proportioned(trial.shape.outline, trial.box))
               continue;
             if (const double now = resemblance(level, trial, blurred); now > most + 2e-3) {
               most = now;

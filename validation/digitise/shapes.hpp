@@ -43,12 +43,6 @@ std::vector<std::string_view> outline_names();
 bool is_triangle(Outline outline);
 bool is_strokes(Outline outline);  ///< plus, x, asterisk: no inside
 
-/// By how much the sides of a box are out of the proportion of an outline, 1 where they are not.
-/// Programs draw markers as wide as high, but for thin diamonds and flat triangles (an equilateral
-/// one is 0.87 as high as wide); a small one is off by its whole pixels, up to 1.18. A sliver of a
-/// bar or of a line, that would explain more ink than a marker, is none.
-double out_of_proportion(Outline outline, cv::Size2d box);
-
 /// The outline (no cross) scaled to a width and height in pixels, filled or as a stroke whose outer
 /// edge touches the box, drawn with anti-aliasing `off` the middle of an image of `size` pixels.
 /// Returns coverage 0 to 1, CV_32F.

@@ -119,8 +119,7 @@ struct Drawn {
   double differs = 0;
 };
 
-/// Absolute differences, so that bars and lines that stick out do not count much; a box out of
-/// proportion counts more, as it is drawn out along a bar.
+/// Absolute differences, so that bars and lines that stick out do not count much.
 Drawn drawn_like(const cv::Mat& ink, Outline outline) {
   double most = 0;
   cv::minMaxLoc(ink, nullptr, &most);
@@ -134,7 +133,7 @@ Drawn drawn_like(const cv::Mat& ink, Outline outline) {
   const auto difference = [&](const std::array<double, 4>& p) {
     const auto drawn =
         draw_shape({outline, Fill::filled}, {p[2], p[3]}, 1, ink.size(), {p[0], p[1]});
-    return cv::norm(filled, drawn, cv::NORM_L1) * out_of_proportion(outline, {p[2], p[3]});
+    return cv::norm(filled, drawn, cv::NORM_L1);
   };
   double least = difference(best);
   for (double step = 0.15 * start.width; step > 0.04; step /= 2)

@@ -8,6 +8,7 @@
 #include "tests/validation/digitise/drawn_stroke.hpp"
 #include "validation/digitise/error_bars.hpp"
 #include "validation/digitise/markers.hpp"
+#include "validation/digitise/pieces.hpp"
 
 namespace bedscope::digitise {
 namespace {
@@ -228,18 +229,18 @@ TEST(ErrorBars, WhatResemblesAMarkerLittleAndLiesOnABarIsNone) {
 
 /// Open markers filled with paper, on a bar.
 void add_on_bar(InkMap& map, Outline outline, double size, cv::Point2d at, double length) {
-  add_bar(map, at, length, 1.5, 4);
+  add_bar(map, at, length, 2, 6);
   map.coverage.setTo(0, marker_at({outline, Fill::filled}, size, 1, at) > 0.5F);
-  add(map, marker_at({outline, Fill::open}, size, 1.5, at));
+  add(map, marker_at({outline, Fill::open}, size, 2, at));
 }
 
 TEST(Learn, SeriesOfOneInkByTheirShapesThoughBarsGoThroughThem) {
   auto map = empty();
   std::vector<cv::Point2d> circles, diamonds;
-  for (int i = 0; i < 12; ++i) circles.emplace_back(25.3 + 33.4 * i, 70.2 + 20 * std::sin(0.9 * i));
-  for (int i = 0; i < 4; ++i) diamonds.emplace_back(60.3 + 80.4 * i, 180.6 - 9.5 * i);
-  for (const auto at : circles) add_on_bar(map, Outline::circle, 13, at, 20);
-  for (const auto at : diamonds) add_on_bar(map, Outline::diamond, 18, at, 22);
+  for (int i = 0; i < 12; ++i) circles.emplace_back(25.5 + 33 * i, 70.5 + (i % 4) * 9);
+  for (int i = 0; i < 4; ++i) diamonds.emplace_back(60.5 + 80 * i, 190.5 - 9 * i);
+  for (const auto at : circles) add_on_bar(map, Outline::circle, 17, at, 24);
+  for (const auto at : diamonds) add_on_bar(map, Outline::diamond, 23, at, 27);
   const Shape circle{Outline::circle, Fill::open}, diamond{Outline::diamond, Fill::open};
   MarkerQuery of_diamonds, of_circles;
   of_diamonds.shape = diamond;
@@ -278,6 +279,18 @@ TEST(Learn, DashesOfALineBesideItsMarkersAreNone) {
   EXPECT_EQ(find_markers(map, {*marker})[0].size(), at.size());
 }
 
+TEST(Pieces, ADashIsAsBroadAsItsLineThoughItsBoxIsSquare) {
+  auto map = empty();
+  add(map, stroke_from({100, 100}, {108, 108}, 2.5));
+  add(map, marker_at({Outline::circle, Fill::open}, 11, 2, {200, 100}));
+  const auto pieces = pieces_of(map.coverage > 0.28F, map);
+  ASSERT_EQ(pieces.size(), 2U);
+  const auto& dash = pieces[0].box.x < 150 ? pieces[0] : pieces[1];
+  const auto& ring = pieces[0].box.x < 150 ? pieces[1] : pieces[0];
+  EXPECT_NEAR(dash.breadth, 2.5, 0.5);
+  EXPECT_GT(ring.breadth, 9);
+}
+
 TEST(Learn, AMarkerShownWithTheLineThatPassesIt) {
   auto map = empty();
   const auto at = places(9);
@@ -305,6 +318,37 @@ TEST(Template, ASmallBlurredTriangleIsNoPentagon) {
                              {Outline::pentagon, Fill::filled}),
                {{Outline::triangle, Fill::filled}, {Outline::pentagon, Fill::filled}});
   EXPECT_EQ(round.shape.outline, Outline::pentagon);
+}
+
+TEST(Learn, SmallBlurredTrianglesAreNoPentagons) {
+  auto map = empty();
+  for (const auto place : places(9))
+    add(map, marker_at({Outline::triangle, Fill::filled}, 10, 1, place));
+  cv::GaussianBlur(map.coverage, map.coverage, {}, 1.6);
+  const auto marker = learn(map, {});
+  ASSERT_TRUE(marker);
+  EXPECT_EQ(name_of(marker->shape), "filled triangle");
+}
+
+TEST(Template, ABarAtItsTipDoesNotMoveATrianglesPoint) {
+  const Shape shape{Outline::triangle, Fill::filled};
+  cv::Mat ink = draw_shape(shape, {24, 24}, 1, {30, 40});
+  const auto bare = make_template(ink, shape);
+  ink.rowRange(3, 16).colRange(13, 17).setTo(1);
+  EXPECT_NEAR(make_template(ink, shape).reference.y, bare.reference.y, 0.3);
+}
+
+TEST(ErrorBars, AFaintRowBehindACapIsNotTheBars) {
+  auto map = empty();
+  const Shape square{Outline::square, Fill::filled};
+  const cv::Point2d at(100.5, 120);
+  add(map, marker_at(square, 11, 1, at));
+  add_bar(map, at, 30, 3, 8);
+  map.coverage(cv::Rect(99, 152, 3, 1)).setTo(0.4);  // noise below the lower cap
+  const auto marker = make_template(draw_shape(square, {11, 11}, 1, {15, 15}), square);
+  const auto bar = find_error_bar(map, marker, at, false);
+  EXPECT_NEAR(bar.lower, 150, 0.3);
+  EXPECT_GT(bar.half_cap, 7);
 }
 
 TEST(ErrorBars, BehindTheGapThatGnuplotLeavesRoundAMarker) {
