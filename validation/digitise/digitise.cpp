@@ -383,12 +383,12 @@ class Digitiser {
     const cv::Rect box = whole_pixels(page_.to_page(wanted), page_.image().size());
     if (box.width < 4 || box.height < 4)
       throw InputError(
-          "{}: series \"{}\": sample: expected at least 4 x 4 pixels inside the picture", where_,
+          "{}: series \"{}\": template: expected at least 4 x 4 pixels inside the picture", where_,
           series.name);
     query.sample = coverage_of(colours_, ink)(box).clone();
     if (cv::sum(query.sample)[0] < 4)
       throw InputError(
-          "{}: series \"{}\": sample: expected a marker of colour {} in it, found none", where_,
+          "{}: series \"{}\": template: expected a marker of colour {} in it, found none", where_,
           series.name, hex_of(series.colour));
     if (series.reference)
       query.reference = page_.to_page(*series.reference) - cv::Point2d(box.tl());
@@ -509,6 +509,7 @@ class Digitiser {
 
 Digitised digitise(const cv::Mat& picture, bool lossy, const Figure& figure,
                    const std::string& where) {
+  check_inside(figure, picture.size(), where);
   return Digitiser(picture, lossy, figure, where).run();
 }
 

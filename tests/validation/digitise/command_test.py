@@ -222,6 +222,70 @@ class Command(unittest.TestCase):
             self.assertTrue(any(abs(float(line.split("[")[1].split(",")[0]) - x) < 1 for line in
                                 run.stdout.splitlines() if "pixel" in line), f"{tick}: {run.stdout}")
 
+    def test_a_jpeg_is_read_as_viewers_show_it(self):
+        with Image.open(self.at("fig.png")) as picture:
+            upright = picture.convert("RGB")
+        exif = Image.Exif()
+        exif[0x0112] = 6  # to be turned clockwise by a right angle
+        upright.rotate(90, expand=True).save(self.at("fig.jpg"), quality=95, exif=exif.tobytes())
+        run = self.run_it('image = "fig.jpg"\n' + X + Y + SERIES)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn("EXIF orientation", run.stdout)
+        rows = self.rows()
+        self.assertEqual(len(rows), 1 + len(POINTS))
+        for row, (x, y) in zip(rows[1:], POINTS):
+            self.assertAlmostEqual(float(row[1]), x, delta=0.5 / 300)
+            self.assertAlmostEqual(float(row[3]), y, delta=0.5 / 240)
+        upright.save(self.at("fig.jpg"), quality=95, exif=Image.Exif().tobytes())
+        run = self.run_it('image = "fig.jpg"\n' + X + Y + SERIES)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertNotIn("EXIF", run.stdout)
+
+    def test_a_frame_around_the_axis_points_is_found(self):
+        def axis(name, ends):
+            points = ", ".join(f"{{ pixel = [{a:.0f}, {b:.0f}], value = {v} }}" for (a, b), v in ends)
+            return f"[axes.{name}]\npoints = [{points}]\n"
+
+        axes = (axis("x", [(place(0.1, 0.1), 0.1), (place(0.9, 0.1), 0.9)])
+                + axis("y", [(place(0.1, 0.1), 0.1), (place(0.1, 0.9), 0.9)]))
+        run = self.run_it('image = "fig.png"\n' + axes + SERIES)
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        self.assertEqual(len(self.rows()), 1 + len(POINTS))
+
+    def test_inputs_are_not_written_over(self):
+        text = 'image = "fig.png"\n' + X + Y + SERIES
+        with open(self.at("fig.toml"), "w") as file:
+            file.write(text)
+        shutil.copy(self.at("fig.png"), self.at("fig.digitised.png"))
+        os.symlink("fig.png", self.at("link.png"))
+
+        def files():
+            return {path.name: path.read_bytes() for path in pathlib.Path(self.folder).iterdir()}
+
+        before = files()
+        for words in (["fig.toml", "-o", "fig.png"], ["fig.toml", "-o", "./fig.toml"], ["fig.toml", "-o", "link.png"],
+                      ["fig.toml", "-o", "fig.digitised.png"], ["--suggest", "fig.png", "-o", "fig.png"],
+                      ["fig.toml", "--image", "fig.png", "--image", "fig.digitised.png"]):
+            run = subprocess.run([PROGRAM, "digitise", *words], capture_output=True, text=True, cwd=self.folder)
+            self.assertEqual((run.returncode, run.stderr.count("\n")), (2, 1), (words, run.stderr))
+            self.assertIn(words[-1].removeprefix("./"), run.stderr)
+            self.assertTrue(files() == before, words)
+
+    def test_pixels_outside_the_picture_are_refused(self):
+        head, size = 'image = "fig.png"\n', "400 x 300"
+        self.refuses(head + X.replace("[360, 260]", "[3600, 260]") + Y + SERIES, "fig.png", "axes.x", size,
+                     "[3600, 260]")
+        self.refuses(head + X + Y.replace("[60, 20]", "[60, -20]") + SERIES, "fig.png", "axes.y", "[60, -20]")
+        self.refuses(head + "plot_area = [60, 20, 3000, 240]\n" + X + Y + SERIES, "plot_area", size, "3000")
+        self.refuses(head + "exclude = [[500, 20, 30, 240]]\n" + X + Y + SERIES, "exclude", size, "500")
+        box = "template = [395, 100, 16, 16]\n"
+        self.refuses(head + X + Y + SERIES + box, '"a"', "template", size, "[395, 100, 16, 16]")
+        box = "template = [112, 180, 16, 16]\nreference = [1120, 188]\n"
+        self.refuses(head + X + Y + SERIES + box, '"a"', "reference", size, "[1120, 188]")
+        # One that goes to the edge and beyond says what is meant.
+        run = self.run_it(head + "exclude = [[380, -50, 900, 900]]\n" + X + Y + SERIES)
+        self.assertEqual(run.returncode, 0, run.stderr)
+
     def test_bad_files_end_in_one_line(self):
         head = 'image = "fig.png"\n'
         self.refuses(head + X + Y + SERIES.replace("d62728", "2ca02c"), "fig.png", '"a"', "#2ca02c", "found none")
