@@ -20,6 +20,7 @@
 #include "validation/digitise/page.hpp"
 #include "validation/digitise/rules.hpp"
 #include "validation/digitise/stroke.hpp"
+#include "validation/digitise/ticks.hpp"
 #include "validation/digitise/uncertainty.hpp"
 
 namespace bedscope::digitise {
@@ -98,9 +99,9 @@ Upright upright(const cv::Mat& picture, const Figure& figure) {
   return {{picture, angle + *rest, reduction}};
 }
 
-/// `across`: the long lines across the axis.
+/// `across`: the long lines across the axis; `ticks`: its ticks.
 Calibration calibration_of(const AxisSpec& axis, const Page& page, const std::vector<Rule>& across,
-                           bool is_x, const std::string& where) {
+                           const std::vector<double>& ticks, bool is_x, const std::string& where) {
   std::vector<double> along;
   for (const auto& point : axis.points) {
     const auto at = page.to_page(point.pixel);
@@ -112,7 +113,14 @@ Calibration calibration_of(const AxisSpec& axis, const Page& page, const std::ve
   std::sort(thickness.begin(), thickness.end());
   for (const auto& rule : across)
     if (rule.thickness > 0.75 * thickness[thickness.size() / 2]) lines.push_back(rule.at);
-  return calibrate(axis, places_of(axis, along, lines, 1.0 / page.reduction(), page.angle() != 0),
+  const double pixel = 1.0 / page.reduction();
+  // A tick at the end of a line is the line.
+  const auto rules = lines;
+  for (const double tick : ticks)
+    if (std::none_of(rules.begin(), rules.end(),
+                     [&](double line) { return std::abs(line - tick) < 2 * pixel; }))
+      lines.push_back(tick);
+  return calibrate(axis, places_of(axis, along, lines, pixel, page.angle() != 0),
                    fmt::format("{}: axes.{}", where, is_x ? "x" : "y"));
 }
 
@@ -131,13 +139,15 @@ class Digitiser {
     const auto inside = box_of_points(figure_, page_);
     const auto rules =
         find_rules(ink_of_page(page_, inside), 0.4 * shorter_side(inside), thickest(inside));
-    x_ = calibration_of(figure.x, page_, rules.columns, true, where);
-    y_ = calibration_of(figure.y, page_, rules.rows, false, where);
+    const auto framed = plot_area(rules, inside, page_.image().size());
+    const auto ticks = find_ticks(page_.image(), framed.box);
+    x_ = calibration_of(figure.x, page_, rules.columns, ticks.x, true, where);
+    y_ = calibration_of(figure.y, page_, rules.rows, ticks.y, false, where);
     for (const auto& point : figure.x.points)
       row_of_x_ += page_.to_page(point.pixel).y / static_cast<double>(figure.x.points.size());
     for (const auto& point : figure.y.points)
       column_of_y_ += page_.to_page(point.pixel).x / static_cast<double>(figure.y.points.size());
-    find_area(inside, rules);
+    find_area(inside, framed);
     separate_inks(lossy);
     find_left_out();
   }
@@ -157,12 +167,11 @@ class Digitiser {
   }
 
  private:
-  void find_area(const cv::Rect2d& inside, const Rules& rules) {
+  void find_area(const cv::Rect2d& inside, const PlotArea& framed) {
     const auto size = page_.image().size();
     if (figure_.plot_area) {
       found_.plot_area = page_.to_page(*figure_.plot_area);
     } else {
-      const auto framed = plot_area(rules, inside, size);
       const auto shaded = shaded_area(page_.image(), inside);
       found_.plot_area = shaded ? framed.box & *shaded : framed.box;
       if (framed.guess && !shaded)
