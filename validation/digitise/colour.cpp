@@ -9,7 +9,6 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
-#include "readers/error.hpp"
 #include "validation/digitise/page.hpp"
 
 namespace bedscope::digitise {
@@ -206,8 +205,7 @@ std::optional<cv::Vec3f> neutral_beside(const std::vector<cv::Vec3f>& inks, cv::
 }  // namespace
 
 Colours separate(const cv::Mat& page, const cv::Rect& area, bool lossy,
-                 const std::vector<cv::Vec3f>& asked, const std::vector<std::string>& names,
-                 const std::string& where) {
+                 const std::vector<cv::Vec3f>& asked) {
   Colours colours;
   colours.paper = paper_of(page, area);
   cv::Mat difference;
@@ -218,12 +216,12 @@ Colours separate(const cv::Mat& page, const cv::Rect& area, bool lossy,
   const bool smeared = lossy || noise.smears;
   const auto cores = core_colours(difference(area));
   std::vector<cv::Vec3f> inks;
-  for (std::size_t i = 0; i < asked.size(); ++i) {
-    const auto found = find_again(cores, asked[i] - colours.paper, smeared, 12);
-    if (!found || length(*found) < 25)
-      throw InputError(
-          "{}: series \"{}\": expected pixels of colour {} in the plot area, found none", where,
-          names[i], hex_of(asked[i]));
+  for (const auto& colour : asked) {
+    const auto found = find_again(cores, colour - colours.paper, smeared, 12);
+    if (!found || length(*found) < 25) {
+      colours.ink_of_asked.push_back(-1);
+      continue;
+    }
     // Colours given by eye may mean the same ink.
     const auto same = std::find_if(inks.begin(), inks.end(),
                                    [&](cv::Vec3f ink) { return are_one_ink(ink, *found); });

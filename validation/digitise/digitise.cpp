@@ -159,6 +159,7 @@ class Digitiser {
       found_.series[i].kind = figure_.series[i].kind;
     }
     for (const auto& [ink, members] : members_) digitise_ink(ink, members);
+    if (!missing_.empty()) throw InputError("{}: {}", where_, missing_);
     for (auto& series : found_.series)
       std::stable_sort(series.points.begin(), series.points.end(),
                        [](const Point& a, const Point& b) { return a.x < b.x; });
@@ -189,14 +190,13 @@ class Digitiser {
 
   void separate_inks(bool lossy) {
     std::vector<cv::Vec3f> asked;
-    std::vector<std::string> names;
-    for (const auto& series : figure_.series) {
-      asked.push_back(series.colour);
-      names.push_back(series.name);
-    }
-    colours_ = separate(page_.image(), area_, lossy, asked, names, where_);
+    for (const auto& series : figure_.series) asked.push_back(series.colour);
+    colours_ = separate(page_.image(), area_, lossy, asked);
     for (std::size_t i = 0; i < figure_.series.size(); ++i)
-      members_[colours_.ink_of_asked[i]].push_back(i);
+      if (const int ink = colours_.ink_of_asked[i]; ink >= 0)
+        members_[ink].push_back(i);
+      else
+        miss(figure_.series[i], "pixels");
   }
 
   void find_left_out() {
@@ -279,18 +279,21 @@ class Digitiser {
     const auto learned = learn_all(map, queries);
     for (std::size_t t = 0; t < learned.size(); ++t) {
       const auto& series = figure_.series[with_markers[t]];
-      if (!learned[t])
-        throw InputError(
-            "{}: series \"{}\": expected markers of colour {}{} in the plot area, found none",
-            where_, series.name, hex_of(series.colour),
-            series.shape ? " and shape " + name_of(*series.shape) : "");
-      templates.push_back(*learned[t]);
+      if (learned[t])
+        templates.push_back(*learned[t]);
+      else
+        miss(series, "markers");
     }
+    if (templates.size() < learned.size()) return;
     auto markers = find_markers(map, templates);
     const bool with_line = has_line(members);
     for (std::size_t t = 0; t < templates.size(); ++t)
       if (figure_.series[with_markers[t]].error_bars)
         drop_on_bars(map, templates[t], markers[t], with_line);
+    for (std::size_t t = 0; t < templates.size(); ++t)
+      if (markers[t].empty()) miss(figure_.series[with_markers[t]], "markers");
+    if (std::any_of(markers.begin(), markers.end(), [](const auto& one) { return one.empty(); }))
+      return;
     for (std::size_t t = 0; t < templates.size(); ++t)
       store_markers(map, templates[t], markers[t], figure_.series[with_markers[t]],
                     found_.series[with_markers[t]], with_line);
@@ -315,6 +318,15 @@ class Digitiser {
       found_.doubts.push_back(fmt::format(
           "series {}: the noise of the picture mixes its colour {} with another that is there, {}",
           names_of(members), hex_of(colours_.inks[ink]), hex_of(colours_.inks[beside])));
+  }
+
+  /// A series that is not there is an error; all of them are said at once, by run().
+  void miss(const SeriesSpec& series, const char* what) {
+    missing_ += fmt::format(
+        "{}series \"{}\": expected {} of colour {}{} in the plot area, found none",
+        missing_.empty() ? "" : "; ", series.name, what, hex_of(series.colour),
+        series.shape && what == std::string_view("markers") ? " and shape " + name_of(*series.shape)
+                                                            : "");
   }
 
   void doubt_markers(int ink, const std::vector<std::size_t>& series,
@@ -421,10 +433,6 @@ class Digitiser {
 
   void store_markers(const InkMap& map, const Template& marker, std::vector<Marker>& markers,
                      const SeriesSpec& series, FoundSeries& found, bool with_line) {
-    if (markers.empty())
-      throw InputError(
-          "{}: series \"{}\": expected markers of colour {} in the plot area, found none", where_,
-          series.name, hex_of(series.colour));
     complete(markers, page_.reduction(), page_.angle() != 0, colours_.lossy);
     found.shape = name_of(marker.shape);
     const cv::Point2d corner = area_.tl();
@@ -461,10 +469,7 @@ class Digitiser {
     InkMap wider = map;
     cv::dilate(map.unknown, wider.unknown, cv::Mat::ones(3, 3, CV_8U));
     auto line = trace_line(wider, through, series.points);
-    if (line.points.size() < 2)
-      throw InputError(
-          "{}: series \"{}\": expected a line of colour {} in the plot area, found none", where_,
-          series.name, hex_of(series.colour));
+    if (line.points.size() < 2) return miss(series, "a line");
     if (line.explained < 0.7)
       found_.doubts.push_back(
           fmt::format("series \"{}\": the line explains {:.0f} % of the ink of its colour: a "
@@ -512,6 +517,7 @@ class Digitiser {
   Colours colours_;
   std::map<int, std::vector<std::size_t>> members_;  ///< the series of an ink
   Digitised found_;
+  std::string missing_;  ///< what was expected and not found
 };
 
 }  // namespace

@@ -289,6 +289,15 @@ class Command(unittest.TestCase):
     def test_bad_files_end_in_one_line(self):
         head = 'image = "fig.png"\n'
         self.refuses(head + X + Y + SERIES.replace("d62728", "2ca02c"), "fig.png", '"a"', "#2ca02c", "found none")
+        # All that is missing at once: a colour that is not there, and markers where there is a curve.
+        with Image.open(self.at("fig.png")) as picture:
+            curve = picture.convert("RGB")
+        ImageDraw.Draw(curve).line([80, 240, 350, 170], fill=(44, 160, 44), width=2)
+        curve.save(self.at("curve.png"))
+        others = "".join(SERIES.replace('"a"', f'"{name}"').replace("d62728", colour)
+                         for name, colour in (("b", "9467bd"), ("c", "2ca02c"), ("d", "1f77b4")))
+        self.refuses('image = "curve.png"\n' + X + Y + others + SERIES, '"b": expected pixels of colour #9467bd',
+                     '"c": expected markers of colour #2ca02c', '"d": expected pixels of colour #1f77b4')
         self.refuses(head + X.replace("[360, 260]", "[60, 260]") + Y + SERIES, "axes.x", "singular")
         self.refuses(head + X.replace("value = 1", "value = 0") + Y + SERIES, "axes.x", "singular")
         self.refuses(head + X + 'scale = "log"\n' + Y + SERIES, "above 0 on a log axis")

@@ -464,9 +464,10 @@ TEST(Doubt, AnInkThatNoiseCannotTellFromAnother) {
 TEST(Colour, AFineLineThatShowsItsColourThinnedOnly) {
   cv::Mat page(120, 200, CV_8UC3, cv::Scalar::all(255));
   page.row(60).setTo(cv::Scalar(255, 140, 140));  // blue (BGR) at 45 %
-  const auto colours = separate(page, {0, 0, 200, 120}, false, {{244, 0, 8}}, {"a"}, "f");
+  const auto colours = separate(page, {0, 0, 200, 120}, false, {{244, 0, 8}});
   EXPECT_NEAR(coverage_of(colours, colours.ink_of_asked[0]).at<float>(60, 100), 0.45, 0.05);
-  EXPECT_THROW(separate(page, {0, 0, 200, 120}, false, {{0, 200, 0}}, {"a"}, "f"), InputError);
+  const auto none = separate(page, {0, 0, 200, 120}, false, {{0, 200, 0}, {244, 0, 8}});
+  EXPECT_EQ(none.ink_of_asked, (std::vector{-1, 0}));
 }
 
 TEST(Legend, DashesBetweenMarkersWithBarsAreNoWords) {
