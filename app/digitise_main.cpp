@@ -137,7 +137,8 @@ void run_suggest(const Options& options) {
   if (!options.output.empty()) check_is_no_input(options.output, {options.figure});
   const auto picture = digitise::read_picture(options.figure);
   std::string text = picture.turned ? "# Pixels of the picture as viewers show it, turned.\n" : "";
-  text += digitise::suggest(picture.image, fs::path(options.figure).filename().string());
+  text +=
+      digitise::suggest(picture.image, picture.lossy, fs::path(options.figure).filename().string());
   if (options.output.empty())
     fmt::print("{}", text);
   else

@@ -34,7 +34,7 @@ cv::Rect2d largest_area(const Rules& rules, cv::Size size) {
 
 }  // namespace
 
-std::string suggest(const cv::Mat& picture, const std::string& image_name) {
+std::string suggest(const cv::Mat& picture, bool lossy, const std::string& image_name) {
   double angle = angle_of_ink(picture);
   const double least = 0.25 * std::min(picture.cols, picture.rows);
   const auto ink_at = [&](const Page& page) {
@@ -78,7 +78,7 @@ std::string suggest(const cv::Mat& picture, const std::string& image_name) {
   axis("x", ticks.x, true);
   std::vector<double> upwards(ticks.y.rbegin(), ticks.y.rend());
   axis("y", upwards, false);
-  for (const auto& colour : inks_in(page.image(), cv::Rect(area)))
+  for (const auto& colour : inks_in(page.image(), cv::Rect(area), lossy))
     text += fmt::format(
         "[[series]]\nname = \"{0}\"\nkind = \"markers\"  # or \"line\"\ncolour = \"{0}\"\n",
         hex_of(colour));

@@ -6,6 +6,7 @@ Usage: command_test.py BEDSCOPE [unittest arguments]. Exit code 77: numpy or Pil
 import math
 import os
 import pathlib
+import re
 import resource
 import shutil
 import stat
@@ -221,6 +222,36 @@ class Command(unittest.TestCase):
             x = place(tick, 0)[0]
             self.assertTrue(any(abs(float(line.split("[")[1].split(",")[0]) - x) < 1 for line in
                                 run.stdout.splitlines() if "pixel" in line), f"{tick}: {run.stdout}")
+
+    def test_a_suggestion_with_its_values_filled_in(self):
+        run = subprocess.run([PROGRAM, "digitise", "--suggest", self.at("fig.png")], capture_output=True, text=True)
+        head, x_axis, rest = re.split(r"\[axes\..\]\n", run.stdout)
+        y_axis = rest.split("[[series]]")[0]
+
+        def filled(axis, value_of):
+            return re.sub(r"\[([\d.]+), ([\d.]+)\], value = nan",
+                          lambda m: f"[{m[1]}, {m[2]}], value = {value_of(float(m[1]), float(m[2]))}", axis)
+
+        x_axis = filled(x_axis, lambda a, b: round(4 * (a - 60) / 300) / 4)
+        y_axis = filled(y_axis, lambda a, b: round(4 * (260 - b) / 240) / 4)
+        run = self.run_it(f"{head}[axes.x]\n{x_axis}[axes.y]\n{y_axis}{SERIES}")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        rows = self.rows()
+        self.assertEqual(len(rows), 1 + len(POINTS))
+        for row, (x, y) in zip(rows[1:], POINTS):
+            self.assertAlmostEqual(float(row[1]), x, delta=0.75 / 300)
+            self.assertAlmostEqual(float(row[3]), y, delta=0.75 / 240)
+            # Of the ticks' rounding to whole pixels, which five of them do not show in their scatter, and of the
+            # marker's half of a half pixel: without the former it would be 0.27 px.
+            self.assertGreater(float(row[2]), math.hypot(0.25, 0.25) / 300)
+
+    def test_the_documentation_lists_the_shapes(self):
+        run = self.run_it('image = "fig.png"\n' + X + Y + SERIES + 'shape = "heart"\n')
+        names = run.stderr.split("one of ")[1].split(", found")[0].split(", ")
+        self.assertGreater(len(names), 10)
+        text = (pathlib.Path(__file__).parents[3] / "docs" / "digitiser.md").read_text()
+        for name in names:
+            self.assertIn(f"`{name}`", text)
 
     def test_a_jpeg_is_read_as_viewers_show_it(self):
         with Image.open(self.at("fig.png")) as picture:

@@ -2,6 +2,7 @@
 // The parts of the digitiser that have a closed form.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
@@ -468,6 +469,24 @@ TEST(Colour, AFineLineThatShowsItsColourThinnedOnly) {
   EXPECT_NEAR(coverage_of(colours, colours.ink_of_asked[0]).at<float>(60, 100), 0.45, 0.05);
   const auto none = separate(page, {0, 0, 200, 120}, false, {{0, 200, 0}, {244, 0, 8}});
   EXPECT_EQ(none.ink_of_asked, (std::vector{-1, 0}));
+}
+
+TEST(Colour, SuggestedInksAreThoseOfTheFullestPlacesOfTheirStrokes) {
+  cv::Mat page(200, 300, CV_8UC3, cv::Scalar::all(255));
+  const std::vector<cv::Vec3f> drawn = {{40, 39, 214}, {178, 114, 0}, {0, 159, 230}, {0, 0, 0}};
+  // Lines that lean over the rows of pixels: shares of 0.5 to 1.
+  for (int k = 0; k < 4; ++k)
+    for (int x = 0; x < 300; ++x) {
+      const float share = 0.5F + 0.5F * static_cast<float>(x % 40) / 39;
+      page.at<cv::Vec3b>(20 + 40 * k, x) =
+          cv::Vec3b((1 - share) * cv::Vec3f(255, 255, 255) + share * drawn[k]);
+    }
+  const auto inks = inks_in(page, {0, 0, 300, 200}, false);
+  EXPECT_EQ(inks.size(), 4U);
+  for (const auto& ink : drawn)
+    EXPECT_TRUE(std::any_of(inks.begin(), inks.end(), [&](cv::Vec3f found) {
+      return cv::norm(found - ink) < 20;
+    })) << hex_of(ink);
 }
 
 TEST(Legend, DashesBetweenMarkersWithBarsAreNoWords) {
