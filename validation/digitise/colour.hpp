@@ -31,8 +31,8 @@ cv::Mat coverage_of(const Colours& colours, int index);
 /// 8-bit: pixels that another ink owns (more than a faint share), under which this one may go on.
 cv::Mat hidden_from(const Colours& colours, int index);
 
-/// The inks of a part of a page, the commonest first, each as it is where it is least mixed with the
-/// paper. In noise (`lossy`, or where it is seen) those of one hue are one.
+/// The inks of a part of a page, the commonest first, each as it is where it is least mixed with
+/// the paper. In noise (`lossy`, or where it is seen) those of one hue are one.
 std::vector<cv::Vec3f> inks_in(const cv::Mat& page, const cv::Rect& area, bool lossy);
 
 std::string hex_of(cv::Vec3f colour);
