@@ -34,18 +34,58 @@ struct Product {
   digitise::Digitised found;
 };
 
-Product digitise_one(const std::string& image, const digitise::Figure& figure,
-                     const fs::path& csv) {
-  const auto picture = digitise::read_picture(image);
-  Product product;
-  product.image = image;
-  product.found = digitise::digitise(picture.image, picture.lossy, figure, image);
+/// Throws InputError where `output` would overwrite one of `inputs`, whatever it is called.
+void check_is_no_input(const fs::path& output, const std::vector<std::string>& inputs) {
+  for (const auto& input : inputs) {
+    std::error_code none;  // one of them is not there
+    if (fs::equivalent(output, input, none))
+      throw InputError("{}: expected a place to write to, found the input {}", output.string(),
+                       input);
+  }
+}
+
+/// Where the tables and the pictures go; each to a place of its own, and none onto an input.
+std::vector<Product> places_of(const Options& options, const std::vector<std::string>& images) {
+  const bool many = images.size() > 1;
+  std::vector<Product> products;
+  for (const auto& image : images) {
+    fs::path csv = options.output;
+    const auto own = fs::path(many ? image : options.figure).stem().string() + ".digitised.csv";
+    if (options.output.empty())
+      csv = fs::path(many ? image : options.figure).parent_path() / own;
+    else if (many || fs::is_directory(csv))
+      csv /= own;
+    for (const auto& other : products)
+      if (other.csv == csv)
+        throw InputError("{}: expected pictures of different names, found {} and {}",
+                         options.figure, other.image, image);
+    Product product;
+    product.image = image;
+    product.csv = csv;
+    product.overlay = csv.parent_path() / (fs::path(image).stem().string() + ".digitised.png");
+    if (product.overlay.lexically_normal() == csv.lexically_normal())
+      throw InputError("{}: expected another name for the table than that of the picture beside it",
+                       csv.string());
+    products.push_back(std::move(product));
+  }
+  auto inputs = images;
+  inputs.push_back(options.figure);
+  for (const auto& product : products) {
+    check_is_no_input(product.csv, inputs);
+    check_is_no_input(product.overlay, inputs);
+  }
+  return products;
+}
+
+void digitise_one(const digitise::Figure& figure, Product& product) {
+  const auto picture = digitise::read_picture(product.image);
+  product.found = digitise::digitise(picture.image, picture.lossy, figure, product.image);
+  if (picture.turned)
+    product.found.notes.insert(product.found.notes.begin(),
+                               "turned as the file's EXIF orientation says");
   product.table = digitise::table_of(product.found, figure);
   product.picture = digitise::png_of(product.found.overlay);
   product.found.overlay.release();
-  product.csv = csv;
-  product.overlay = csv.parent_path() / (fs::path(image).stem().string() + ".digitised.png");
-  return product;
 }
 
 /// What may be wrong goes to stderr, even where nothing else is said.
@@ -82,21 +122,8 @@ void run_digitise(const Options& options) {
   if (file.images.empty())
     throw InputError("{}: image is missing: expected a picture's name, there or as --image",
                      options.figure);
-  const bool many = file.images.size() > 1;
-  std::vector<Product> products;
-  for (const auto& image : file.images) {
-    fs::path csv = options.output;
-    const auto own = fs::path(many ? image : options.figure).stem().string() + ".digitised.csv";
-    if (options.output.empty())
-      csv = fs::path(many ? image : options.figure).parent_path() / own;
-    else if (many || fs::is_directory(csv))
-      csv /= own;
-    for (const auto& other : products)
-      if (other.csv == csv)
-        throw InputError("{}: expected pictures of different names, found {} and {}",
-                         options.figure, other.image, image);
-    products.push_back(digitise_one(image, file.figure, csv));
-  }
+  auto products = places_of(options, file.images);
+  for (auto& product : products) digitise_one(file.figure, product);
   std::deque<analysis::OutputFile> outputs;  // all of them, or none
   for (const auto& product : products) {
     analysis::write_part(outputs.emplace_back(product.csv), product.table);
@@ -107,8 +134,11 @@ void run_digitise(const Options& options) {
 }
 
 void run_suggest(const Options& options) {
+  if (!options.output.empty()) check_is_no_input(options.output, {options.figure});
   const auto picture = digitise::read_picture(options.figure);
-  const auto text = digitise::suggest(picture.image, fs::path(options.figure).filename().string());
+  std::string text = picture.turned ? "# Pixels of the picture as viewers show it, turned.\n" : "";
+  text +=
+      digitise::suggest(picture.image, picture.lossy, fs::path(options.figure).filename().string());
   if (options.output.empty())
     fmt::print("{}", text);
   else

@@ -22,6 +22,18 @@ std::optional<double> meant(double at, const std::vector<double>& lines, double 
   return line && std::abs(*line - at) <= 2 * pixel ? line : std::nullopt;
 }
 
+constexpr double of_a_fraction = 0.1;  // standard uncertainty of a pixel given as a fraction [px]
+
+/// The line whose middle was measured: the nearest within three uncertainties of that.
+std::optional<double> measured(double at, const std::vector<double>& lines, double pixel) {
+  std::optional<double> line;
+  for (const double other : lines)
+    if (std::abs(other - at) <= 3 * of_a_fraction * pixel &&
+        (!line || std::abs(other - at) < std::abs(*line - at)))
+      line = other;
+  return line;
+}
+
 /// The two points that are farthest apart, as a vector from the first to the second.
 cv::Point2d longest(const AxisSpec& axis) {
   cv::Point2d best;
@@ -38,7 +50,9 @@ bool in_whole_pixels(const AxisSpec& axis) {
 }
 
 /// The standard uncertainty of a point's pixel as given.
-double picked(const AxisSpec& axis) { return in_whole_pixels(axis) ? 1 / std::sqrt(3.0) : 0.1; }
+double picked(const AxisSpec& axis) {
+  return in_whole_pixels(axis) ? 1 / std::sqrt(3.0) : of_a_fraction;
+}
 
 }  // namespace
 
@@ -69,7 +83,7 @@ std::vector<Place> places_of(const AxisSpec& axis, const std::vector<double>& al
   const bool whole = in_whole_pixels(axis);
   std::vector<Place> places;
   for (const double at : along) {
-    const auto line = whole ? meant(at, lines, pixel) : std::nullopt;
+    const auto line = whole ? meant(at, lines, pixel) : measured(at, lines, pixel);
     if (!line) {
       places.push_back({at, pixel * picked(axis)});
       continue;
@@ -111,17 +125,26 @@ Calibration calibrate(const AxisSpec& axis, const std::vector<Place>& places,
   if (!(std::abs(result.b) > 0) || !std::isfinite(result.b))
     throw InputError("{}: singular: expected different values, found all equal to {}", where,
                      axis.points[0].value);
-  double scatter = 0;  // px
-  for (std::size_t i = 0; i < n; ++i)
-    scatter =
-        std::max(scatter, std::abs(places[i].at - result.origin - (values[i] - mean) / result.b));
+  double scatter = 0, squares = 0;  // px
+  for (std::size_t i = 0; i < n; ++i) {
+    const double off = std::abs(places[i].at - result.origin - (values[i] - mean) / result.b);
+    scatter = std::max(scatter, off);
+    squares += off * off;
+  }
   const double allowed = std::max(3.0, 0.005 * std::sqrt(tt));
   if (scatter > allowed)
     throw InputError("{}: expected points on one {} scale, found one {:.1f} px off", where,
                      axis.log ? "logarithmic" : "linear", scatter);
   result.places = places;
-  if (n > 2)
-    for (auto& place : result.places) place.u = std::max(place.u, scatter / std::sqrt(3.0));
+  if (n == 2) return result;
+  const double seen = std::sqrt(squares / static_cast<double>(n - 2));
+  for (auto& place : result.places)
+    if (seen < place.u) {
+      place.shared = std::hypot(place.shared, std::sqrt(place.u * place.u - seen * seen));
+      place.u = seen;
+    } else {
+      place.u = std::max(place.u, scatter / std::sqrt(3.0));
+    }
   return result;
 }
 

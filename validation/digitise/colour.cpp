@@ -9,7 +9,6 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
-#include "readers/error.hpp"
 #include "validation/digitise/page.hpp"
 
 namespace bedscope::digitise {
@@ -162,6 +161,35 @@ void give_edges_to_stronger(const std::vector<cv::Vec3f>& inks, const cv::Mat& d
     }
 }
 
+/// Blue and red less luma of a BGR difference (ITU-R BT.601): what JPEG smears.
+cv::Vec2f chroma(cv::Vec3f d) {
+  const float y = luma(d);
+  return {0.564F * (d[0] - y), 0.713F * (d[2] - y)};
+}
+
+constexpr int grey_hue = -1;  // the hue of greys
+
+/// A twelfth of the circle of hues; greys have less chroma than compression gives to them.
+int hue_of(cv::Vec3f d) {
+  const auto c = chroma(d);
+  return cv::norm(c) < 20 ? grey_hue : static_cast<int>(cv::fastAtan2(c[1], c[0]) / 30) % 12;
+}
+
+/// The mean of the strongest tenth of `colours` of one hue: thin strokes, compressed or blurred,
+/// show their ink nowhere else.
+cv::Vec3f fullest(std::vector<cv::Vec3f> colours, bool grey) {
+  const auto strength = [&](cv::Vec3f d) {
+    return grey ? length(d) : static_cast<float>(cv::norm(chroma(d)));
+  };
+  const auto n = std::min(colours.size(), std::max<std::size_t>(12, colours.size() / 10));
+  const auto end = colours.begin() + static_cast<std::ptrdiff_t>(n);
+  std::nth_element(colours.begin(), end - 1, colours.end(),
+                   [&](cv::Vec3f a, cv::Vec3f b) { return strength(a) > strength(b); });
+  cv::Vec3d sum;
+  for (auto one = colours.begin(); one != end; ++one) sum += cv::Vec3d(*one);
+  return cv::Vec3f(sum / static_cast<double>(n));
+}
+
 struct Noise {
   bool any = false;     ///< the paper is uneven: compression, scanning, blur
   bool smears = false;  ///< compression: it spreads the colour of thin strokes
@@ -206,8 +234,7 @@ std::optional<cv::Vec3f> neutral_beside(const std::vector<cv::Vec3f>& inks, cv::
 }  // namespace
 
 Colours separate(const cv::Mat& page, const cv::Rect& area, bool lossy,
-                 const std::vector<cv::Vec3f>& asked, const std::vector<std::string>& names,
-                 const std::string& where) {
+                 const std::vector<cv::Vec3f>& asked) {
   Colours colours;
   colours.paper = paper_of(page, area);
   cv::Mat difference;
@@ -218,12 +245,12 @@ Colours separate(const cv::Mat& page, const cv::Rect& area, bool lossy,
   const bool smeared = lossy || noise.smears;
   const auto cores = core_colours(difference(area));
   std::vector<cv::Vec3f> inks;
-  for (std::size_t i = 0; i < asked.size(); ++i) {
-    const auto found = find_again(cores, asked[i] - colours.paper, smeared, 12);
-    if (!found || length(*found) < 25)
-      throw InputError(
-          "{}: series \"{}\": expected pixels of colour {} in the plot area, found none", where,
-          names[i], hex_of(asked[i]));
+  for (const auto& colour : asked) {
+    const auto found = find_again(cores, colour - colours.paper, smeared, 12);
+    if (!found || length(*found) < 25) {
+      colours.ink_of_asked.push_back(-1);
+      continue;
+    }
     // Colours given by eye may mean the same ink.
     const auto same = std::find_if(inks.begin(), inks.end(),
                                    [&](cv::Vec3f ink) { return are_one_ink(ink, *found); });
@@ -282,14 +309,32 @@ cv::Mat hidden_from(const Colours& colours, int index) {
   return others & strong;
 }
 
-std::vector<cv::Vec3f> inks_in(const cv::Mat& page, const cv::Rect& area) {
+std::vector<cv::Vec3f> inks_in(const cv::Mat& page, const cv::Rect& area, bool lossy) {
   const auto paper = paper_of(page, area);
   cv::Mat difference;
   page(area).convertTo(difference, CV_32F);
   difference -= cv::Scalar(paper[0], paper[1], paper[2]);
+  const bool noisy = lossy || noise_of(difference).any;
+  auto rest = core_colours(difference);
+  const auto least = std::max<std::size_t>(30, rest.size() / 200);
   std::vector<cv::Vec3f> inks;
-  add_others(core_colours(difference), true, inks);
-  for (auto& ink : inks) ink += paper;
+  while (inks.size() < 24) {
+    std::map<int, std::vector<cv::Vec3f>> of_hue;
+    for (const auto& core : rest) of_hue[hue_of(core)].push_back(core);
+    const auto commonest = std::max_element(
+        of_hue.begin(), of_hue.end(),
+        [](const auto& a, const auto& b) { return a.second.size() < b.second.size(); });
+    if (commonest == of_hue.end() || commonest->second.size() < least) break;
+    const auto ink = fullest(commonest->second, commonest->first == grey_hue);
+    // In noise, and where it is too faint to be one, the rest of a hue is no other ink.
+    const bool whole = noisy || length(ink) < 60;
+    const int hue = commonest->first;
+    const auto known = std::erase_if(rest, [&](cv::Vec3f core) {
+      return is_mixture(core, {ink}, noisy) || (whole && hue_of(core) == hue);
+    });
+    if (known == 0) break;
+    if (length(ink) >= 60) inks.push_back(ink + paper);
+  }
   return inks;
 }
 

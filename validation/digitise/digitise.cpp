@@ -20,6 +20,7 @@
 #include "validation/digitise/page.hpp"
 #include "validation/digitise/rules.hpp"
 #include "validation/digitise/stroke.hpp"
+#include "validation/digitise/ticks.hpp"
 #include "validation/digitise/uncertainty.hpp"
 
 namespace bedscope::digitise {
@@ -98,9 +99,9 @@ Upright upright(const cv::Mat& picture, const Figure& figure) {
   return {{picture, angle + *rest, reduction}};
 }
 
-/// `across`: the long lines across the axis.
+/// `across`: the long lines across the axis; `ticks`: its ticks.
 Calibration calibration_of(const AxisSpec& axis, const Page& page, const std::vector<Rule>& across,
-                           bool is_x, const std::string& where) {
+                           const std::vector<double>& ticks, bool is_x, const std::string& where) {
   std::vector<double> along;
   for (const auto& point : axis.points) {
     const auto at = page.to_page(point.pixel);
@@ -112,7 +113,14 @@ Calibration calibration_of(const AxisSpec& axis, const Page& page, const std::ve
   std::sort(thickness.begin(), thickness.end());
   for (const auto& rule : across)
     if (rule.thickness > 0.75 * thickness[thickness.size() / 2]) lines.push_back(rule.at);
-  return calibrate(axis, places_of(axis, along, lines, 1.0 / page.reduction(), page.angle() != 0),
+  const double pixel = 1.0 / page.reduction();
+  // A tick at the end of a line is the line.
+  const auto rules = lines;
+  for (const double tick : ticks)
+    if (std::none_of(rules.begin(), rules.end(),
+                     [&](double line) { return std::abs(line - tick) < 2 * pixel; }))
+      lines.push_back(tick);
+  return calibrate(axis, places_of(axis, along, lines, pixel, page.angle() != 0),
                    fmt::format("{}: axes.{}", where, is_x ? "x" : "y"));
 }
 
@@ -131,13 +139,15 @@ class Digitiser {
     const auto inside = box_of_points(figure_, page_);
     const auto rules =
         find_rules(ink_of_page(page_, inside), 0.4 * shorter_side(inside), thickest(inside));
-    x_ = calibration_of(figure.x, page_, rules.columns, true, where);
-    y_ = calibration_of(figure.y, page_, rules.rows, false, where);
+    const auto framed = plot_area(rules, inside, page_.image().size());
+    const auto ticks = find_ticks(page_.image(), framed.box);
+    x_ = calibration_of(figure.x, page_, rules.columns, ticks.x, true, where);
+    y_ = calibration_of(figure.y, page_, rules.rows, ticks.y, false, where);
     for (const auto& point : figure.x.points)
       row_of_x_ += page_.to_page(point.pixel).y / static_cast<double>(figure.x.points.size());
     for (const auto& point : figure.y.points)
       column_of_y_ += page_.to_page(point.pixel).x / static_cast<double>(figure.y.points.size());
-    find_area(inside, rules);
+    find_area(inside, framed);
     separate_inks(lossy);
     find_left_out();
   }
@@ -149,6 +159,7 @@ class Digitiser {
       found_.series[i].kind = figure_.series[i].kind;
     }
     for (const auto& [ink, members] : members_) digitise_ink(ink, members);
+    if (!missing_.empty()) throw InputError("{}: {}", where_, missing_);
     for (auto& series : found_.series)
       std::stable_sort(series.points.begin(), series.points.end(),
                        [](const Point& a, const Point& b) { return a.x < b.x; });
@@ -157,12 +168,11 @@ class Digitiser {
   }
 
  private:
-  void find_area(const cv::Rect2d& inside, const Rules& rules) {
+  void find_area(const cv::Rect2d& inside, const PlotArea& framed) {
     const auto size = page_.image().size();
     if (figure_.plot_area) {
       found_.plot_area = page_.to_page(*figure_.plot_area);
     } else {
-      const auto framed = plot_area(rules, inside, size);
       const auto shaded = shaded_area(page_.image(), inside);
       found_.plot_area = shaded ? framed.box & *shaded : framed.box;
       if (framed.guess && !shaded)
@@ -180,14 +190,13 @@ class Digitiser {
 
   void separate_inks(bool lossy) {
     std::vector<cv::Vec3f> asked;
-    std::vector<std::string> names;
-    for (const auto& series : figure_.series) {
-      asked.push_back(series.colour);
-      names.push_back(series.name);
-    }
-    colours_ = separate(page_.image(), area_, lossy, asked, names, where_);
+    for (const auto& series : figure_.series) asked.push_back(series.colour);
+    colours_ = separate(page_.image(), area_, lossy, asked);
     for (std::size_t i = 0; i < figure_.series.size(); ++i)
-      members_[colours_.ink_of_asked[i]].push_back(i);
+      if (const int ink = colours_.ink_of_asked[i]; ink >= 0)
+        members_[ink].push_back(i);
+      else
+        miss(figure_.series[i], "pixels");
   }
 
   void find_left_out() {
@@ -270,18 +279,21 @@ class Digitiser {
     const auto learned = learn_all(map, queries);
     for (std::size_t t = 0; t < learned.size(); ++t) {
       const auto& series = figure_.series[with_markers[t]];
-      if (!learned[t])
-        throw InputError(
-            "{}: series \"{}\": expected markers of colour {}{} in the plot area, found none",
-            where_, series.name, hex_of(series.colour),
-            series.shape ? " and shape " + name_of(*series.shape) : "");
-      templates.push_back(*learned[t]);
+      if (learned[t])
+        templates.push_back(*learned[t]);
+      else
+        miss(series, "markers");
     }
+    if (templates.size() < learned.size()) return;
     auto markers = find_markers(map, templates);
     const bool with_line = has_line(members);
     for (std::size_t t = 0; t < templates.size(); ++t)
       if (figure_.series[with_markers[t]].error_bars)
         drop_on_bars(map, templates[t], markers[t], with_line);
+    for (std::size_t t = 0; t < templates.size(); ++t)
+      if (markers[t].empty()) miss(figure_.series[with_markers[t]], "markers");
+    if (std::any_of(markers.begin(), markers.end(), [](const auto& one) { return one.empty(); }))
+      return;
     for (std::size_t t = 0; t < templates.size(); ++t)
       store_markers(map, templates[t], markers[t], figure_.series[with_markers[t]],
                     found_.series[with_markers[t]], with_line);
@@ -306,6 +318,15 @@ class Digitiser {
       found_.doubts.push_back(fmt::format(
           "series {}: the noise of the picture mixes its colour {} with another that is there, {}",
           names_of(members), hex_of(colours_.inks[ink]), hex_of(colours_.inks[beside])));
+  }
+
+  /// A series that is not there is an error; all of them are said at once, by run().
+  void miss(const SeriesSpec& series, const char* what) {
+    missing_ += fmt::format(
+        "{}series \"{}\": expected {} of colour {}{} in the plot area, found none",
+        missing_.empty() ? "" : "; ", series.name, what, hex_of(series.colour),
+        series.shape && what == std::string_view("markers") ? " and shape " + name_of(*series.shape)
+                                                            : "");
   }
 
   void doubt_markers(int ink, const std::vector<std::size_t>& series,
@@ -383,12 +404,12 @@ class Digitiser {
     const cv::Rect box = whole_pixels(page_.to_page(wanted), page_.image().size());
     if (box.width < 4 || box.height < 4)
       throw InputError(
-          "{}: series \"{}\": sample: expected at least 4 x 4 pixels inside the picture", where_,
+          "{}: series \"{}\": template: expected at least 4 x 4 pixels inside the picture", where_,
           series.name);
     query.sample = coverage_of(colours_, ink)(box).clone();
     if (cv::sum(query.sample)[0] < 4)
       throw InputError(
-          "{}: series \"{}\": sample: expected a marker of colour {} in it, found none", where_,
+          "{}: series \"{}\": template: expected a marker of colour {} in it, found none", where_,
           series.name, hex_of(series.colour));
     if (series.reference)
       query.reference = page_.to_page(*series.reference) - cv::Point2d(box.tl());
@@ -412,10 +433,6 @@ class Digitiser {
 
   void store_markers(const InkMap& map, const Template& marker, std::vector<Marker>& markers,
                      const SeriesSpec& series, FoundSeries& found, bool with_line) {
-    if (markers.empty())
-      throw InputError(
-          "{}: series \"{}\": expected markers of colour {} in the plot area, found none", where_,
-          series.name, hex_of(series.colour));
     complete(markers, page_.reduction(), page_.angle() != 0, colours_.lossy);
     found.shape = name_of(marker.shape);
     const cv::Point2d corner = area_.tl();
@@ -452,10 +469,7 @@ class Digitiser {
     InkMap wider = map;
     cv::dilate(map.unknown, wider.unknown, cv::Mat::ones(3, 3, CV_8U));
     auto line = trace_line(wider, through, series.points);
-    if (line.points.size() < 2)
-      throw InputError(
-          "{}: series \"{}\": expected a line of colour {} in the plot area, found none", where_,
-          series.name, hex_of(series.colour));
+    if (line.points.size() < 2) return miss(series, "a line");
     if (line.explained < 0.7)
       found_.doubts.push_back(
           fmt::format("series \"{}\": the line explains {:.0f} % of the ink of its colour: a "
@@ -503,12 +517,14 @@ class Digitiser {
   Colours colours_;
   std::map<int, std::vector<std::size_t>> members_;  ///< the series of an ink
   Digitised found_;
+  std::string missing_;  ///< what was expected and not found
 };
 
 }  // namespace
 
 Digitised digitise(const cv::Mat& picture, bool lossy, const Figure& figure,
                    const std::string& where) {
+  check_inside(figure, picture.size(), where);
   return Digitiser(picture, lossy, figure, where).run();
 }
 

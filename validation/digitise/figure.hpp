@@ -46,6 +46,10 @@ struct Figure {
   std::vector<SeriesSpec> series;
 };
 
+/// Throws InputError, `where` first, where a pixel that the figure names lies outside a picture of
+/// this size. A box that a user draws may go a pixel beyond it.
+void check_inside(const Figure& figure, cv::Size picture, const std::string& where);
+
 inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// A point in the picture and in the axes' units; u is one standard uncertainty.

@@ -121,6 +121,16 @@ class Silence {
   int kept_;
 };
 
+/// Whether a JPEG has a block in which its orientation may be told (Exif 2.3, 4.5.4).
+bool says_orientation(const Bytes& bytes) {
+  const std::string_view mark("Exif\0\0", 6);
+  return std::search(bytes.begin(), bytes.end(), mark.begin(), mark.end()) != bytes.end();
+}
+
+bool same_pixels(const cv::Mat& a, const cv::Mat& b) {
+  return a.size() == b.size() && cv::norm(a, b, cv::NORM_INF) == 0;
+}
+
 cv::Mat on_white(const cv::Mat& read) {
   cv::Mat eight = read, image;
   if (read.depth() == CV_16U) read.convertTo(eight, CV_8U, 1 / 257.0);
@@ -149,17 +159,22 @@ Picture read_picture(const std::filesystem::path& path) {
   if (!png && !jpeg)
     throw FormatError("{}: expected a PNG or JPEG picture, found something else", path.string());
   check_size(path.string(), bytes, jpeg);
-  cv::Mat read;
-  try {
-    const Silence silence;
-    read = cv::imdecode(bytes, cv::IMREAD_UNCHANGED | cv::IMREAD_IGNORE_ORIENTATION);
-  } catch (const cv::Exception&) {
-    read.release();
-  }
+  const auto read_as = [&](int flags) {
+    try {
+      const Silence silence;
+      return cv::imdecode(bytes, flags);
+    } catch (const cv::Exception&) {
+      return cv::Mat();
+    }
+  };
+  // As viewers show it: a JPEG of a camera or a scanner may say that it is to be turned.
+  const cv::Mat read = read_as(jpeg ? cv::IMREAD_COLOR : cv::IMREAD_UNCHANGED);
   if (read.empty() || (read.depth() != CV_8U && read.depth() != CV_16U) || read.channels() == 2)
     throw FormatError("{}: expected a {} picture, found damaged content", path.string(),
                       png ? "PNG" : "JPEG");
-  return {on_white(read), jpeg};
+  const bool turned = jpeg && says_orientation(bytes) &&
+                      !same_pixels(read, read_as(cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION));
+  return {on_white(read), jpeg, turned};
 }
 
 std::string png_of(const cv::Mat& image) {

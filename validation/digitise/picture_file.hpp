@@ -9,8 +9,9 @@
 namespace bedscope::digitise {
 
 struct Picture {
-  cv::Mat image;       ///< 8-bit BGR; transparency laid on white
-  bool lossy = false;  ///< a JPEG
+  cv::Mat image;        ///< 8-bit BGR, as viewers show it; transparency laid on white
+  bool lossy = false;   ///< a JPEG
+  bool turned = false;  ///< turned or mirrored, as the file's EXIF orientation says
 };
 
 inline constexpr double most_pixels = 80e6;  ///< an A4 page at 600 dpi has 35e6

@@ -157,7 +157,36 @@ std::optional<cv::Rect2d> shaded_area(const cv::Mat& page, const cv::Rect2d& ins
   return cv::Rect2d(left, top, right - left, bottom - top);
 }
 
-PlotArea plot_area(const Rules& rules, const cv::Rect2d& inside, cv::Size page) {
+namespace {
+
+/// The box grown to the nearest line on each side of it, where one that spans the box is within a
+/// fifth of the box's size.
+cv::Rect2d grown_to_lines(const Rules& rules, const cv::Rect2d& box) {
+  const auto nearest = [](const std::vector<Rule>& lines, double low, double high,
+                          double across_low, double across_high) {
+    const double reach = (high - low) / 5;
+    double from = low - reach, to = high + reach;
+    bool below = false, above = false;
+    for (const auto& line : lines) {
+      if (line.from > across_low || line.to < across_high) continue;
+      if (line.at <= low && line.at >= from) {
+        from = line.at;
+        below = true;
+      }
+      if (line.at >= high && line.at <= to) {
+        to = line.at;
+        above = true;
+      }
+    }
+    return std::pair(below ? from : low, above ? to : high);
+  };
+  const auto [left, right] = nearest(rules.columns, box.x, box.br().x, box.y, box.br().y);
+  const auto [top, bottom] = nearest(rules.rows, box.y, box.br().y, box.x, box.br().x);
+  return {left, top, right - left, bottom - top};
+}
+
+/// Of the lines that meet the box; see the header.
+PlotArea area_of_lines_at(const Rules& rules, const cv::Rect2d& inside, cv::Size page) {
   // A frame in the paper's colour cuts the ends of grid lines.
   const double slack = std::max(4.0, 0.01 * std::min(inside.width, inside.height));
   bool guess = false;
@@ -191,6 +220,15 @@ PlotArea plot_area(const Rules& rules, const cv::Rect2d& inside, cv::Size page) 
   const auto [top, bottom] = edges(rules.columns, rules.rows, inside.y, inside.br().y, inside.x,
                                    inside.br().x, page.height);
   return {{left, top, right - left, bottom - top}, guess};
+}
+
+}  // namespace
+
+PlotArea plot_area(const Rules& rules, const cv::Rect2d& inside, cv::Size page) {
+  const auto area = area_of_lines_at(rules, inside, page);
+  if (!area.guess) return area;
+  const auto framed = area_of_lines_at(rules, grown_to_lines(rules, inside), page);
+  return framed.guess ? area : framed;
 }
 
 }  // namespace bedscope::digitise

@@ -32,7 +32,8 @@ std::optional<double> angle_of(const Rules& rules);
 std::optional<cv::Rect2d> shaded_area(const cv::Mat& page, const cv::Rect2d& inside);
 
 /// The plot area: of the lines that cross or touch `inside` (the box of the calibration points) and
-/// of the ends of those across them. `inside` grown by an eighth where there are none: a guess.
+/// of the ends of those across them; where there are none, of a frame that lies around the box,
+/// within a fifth of its size. `inside` grown by an eighth where there is none either: a guess.
 struct PlotArea {
   cv::Rect2d box;
   bool guess = false;

@@ -11,44 +11,10 @@
 #include "validation/digitise/colour.hpp"
 #include "validation/digitise/page.hpp"
 #include "validation/digitise/rules.hpp"
+#include "validation/digitise/ticks.hpp"
 
 namespace bedscope::digitise {
 namespace {
-
-/// Ticks along the edge row `edge` of `ink`: columns whose ink sticks out of the axis line (`half`
-/// thick) by `reach` on either side, at sub-pixel.
-std::vector<double> ticks_along(const cv::Mat& ink, double edge, double half, int from, int to,
-                                int reach) {
-  const auto share = [&](int side) {
-    std::vector<double> shares(ink.cols);
-    for (int x = std::max(0, from - 3); x < std::min(ink.cols, to + 4); ++x) {
-      double least = 1;
-      for (int i = 0; i < reach; ++i) {
-        const int y = cvFloor(edge + side * (half + 1.5 + i));
-        least = std::min<double>(least, y < 0 || y >= ink.rows ? 0 : ink.at<float>(y, x));
-      }
-      shares[x] = least;
-    }
-    return shares;
-  };
-  std::vector<double> best;
-  for (const int side : {+1, -1}) {
-    const auto shares = share(side);
-    std::vector<double> ticks;
-    for (int x = 1; x + 1 < ink.cols; ++x) {
-      if (shares[x] < 0.25 || shares[x] < shares[x - 1] || shares[x] <= shares[x + 1]) continue;
-      double mass = 0, moment = 0;
-      for (int i = std::max(0, x - 3); i <= std::min(ink.cols - 1, x + 3); ++i) {
-        mass += shares[i];
-        moment += shares[i] * (i + 0.5);
-      }
-      if (mass > 12 * half + 6) continue;
-      if (ticks.empty() || moment / mass - ticks.back() > 4) ticks.push_back(moment / mass);
-    }
-    if (ticks.size() > best.size()) best = ticks;
-  }
-  return best;
-}
 
 /// The widest area that a horizontal and a vertical line enclose or span.
 cv::Rect2d largest_area(const Rules& rules, cv::Size size) {
@@ -68,7 +34,7 @@ cv::Rect2d largest_area(const Rules& rules, cv::Size size) {
 
 }  // namespace
 
-std::string suggest(const cv::Mat& picture, const std::string& image_name) {
+std::string suggest(const cv::Mat& picture, bool lossy, const std::string& image_name) {
   double angle = angle_of_ink(picture);
   const double least = 0.25 * std::min(picture.cols, picture.rows);
   const auto ink_at = [&](const Page& page) {
@@ -79,17 +45,13 @@ std::string suggest(const cv::Mat& picture, const std::string& image_name) {
       rest && std::abs(*rest) < 0.5)
     angle += *rest;
   const Page page(picture, angle);
-  const cv::Mat ink = ink_at(page);
-  const auto rules = find_rules(ink, least, least / 12);
+  const auto rules = find_rules(ink_at(page), least, least / 12);
   const auto area = largest_area(rules, page.image().size());
   if (area.width < 20 || area.height < 20)
     throw InputError(
         "{}: expected axes as straight lines across at least a quarter of the picture, found none",
         image_name);
-  const int reach = std::max(3, cvRound(0.006 * std::min(area.width, area.height)));
-  const double half = 1 + 0.001 * std::min(area.width, area.height);
-  const auto xs = ticks_along(ink, area.br().y, half, cvFloor(area.x), cvCeil(area.br().x), reach);
-  const auto ys = ticks_along(ink.t(), area.x, half, cvFloor(area.y), cvCeil(area.br().y), reach);
+  const auto ticks = find_ticks(page.image(), area);
 
   std::string text =
       "# Pixels of axes and ticks as found; the values are yours. Two points an axis are enough.\n";
@@ -101,22 +63,22 @@ std::string suggest(const cv::Mat& picture, const std::string& image_name) {
                       middle.y - area.height / 2, area.width, area.height);
   if (page.angle() != 0)
     text += fmt::format("rotation = {:.3f}  # degrees anticlockwise\n", page.angle());
-  const auto axis = [&](const char* name, std::vector<double> ticks, bool is_x) {
-    if (ticks.size() < 2)
-      ticks = is_x ? std::vector{area.x, area.br().x} : std::vector{area.br().y, area.y};
+  const auto axis = [&](const char* name, std::vector<double> found, bool is_x) {
+    if (found.size() < 2)
+      found = is_x ? std::vector{area.x, area.br().x} : std::vector{area.br().y, area.y};
     text += fmt::format(
         "[axes.{}]\nname = \"{}\"\nunit = \"-\"\nscale = \"linear\"  # or \"log\"\npoints = [\n",
         name, name);
-    for (const double tick : ticks) {
+    for (const double tick : found) {
       const auto p = back(is_x ? cv::Point2d(tick, area.br().y) : cv::Point2d(area.x, tick));
       text += fmt::format("  {{ pixel = [{:.2f}, {:.2f}], value = nan }},\n", p.x, p.y);
     }
     text += "]\n";
   };
-  axis("x", xs, true);
-  std::vector<double> upwards(ys.rbegin(), ys.rend());
+  axis("x", ticks.x, true);
+  std::vector<double> upwards(ticks.y.rbegin(), ticks.y.rend());
   axis("y", upwards, false);
-  for (const auto& colour : inks_in(page.image(), cv::Rect(area)))
+  for (const auto& colour : inks_in(page.image(), cv::Rect(area), lossy))
     text += fmt::format(
         "[[series]]\nname = \"{0}\"\nkind = \"markers\"  # or \"line\"\ncolour = \"{0}\"\n",
         hex_of(colour));

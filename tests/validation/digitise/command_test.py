@@ -6,6 +6,7 @@ Usage: command_test.py BEDSCOPE [unittest arguments]. Exit code 77: numpy or Pil
 import math
 import os
 import pathlib
+import re
 import resource
 import shutil
 import stat
@@ -222,9 +223,112 @@ class Command(unittest.TestCase):
             self.assertTrue(any(abs(float(line.split("[")[1].split(",")[0]) - x) < 1 for line in
                                 run.stdout.splitlines() if "pixel" in line), f"{tick}: {run.stdout}")
 
+    def test_a_suggestion_with_its_values_filled_in(self):
+        run = subprocess.run([PROGRAM, "digitise", "--suggest", self.at("fig.png")], capture_output=True, text=True)
+        head, x_axis, rest = re.split(r"\[axes\..\]\n", run.stdout)
+        y_axis = rest.split("[[series]]")[0]
+
+        def filled(axis, value_of):
+            return re.sub(r"\[([\d.]+), ([\d.]+)\], value = nan",
+                          lambda m: f"[{m[1]}, {m[2]}], value = {value_of(float(m[1]), float(m[2]))}", axis)
+
+        x_axis = filled(x_axis, lambda a, b: round(4 * (a - 60) / 300) / 4)
+        y_axis = filled(y_axis, lambda a, b: round(4 * (260 - b) / 240) / 4)
+        run = self.run_it(f"{head}[axes.x]\n{x_axis}[axes.y]\n{y_axis}{SERIES}")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        rows = self.rows()
+        self.assertEqual(len(rows), 1 + len(POINTS))
+        for row, (x, y) in zip(rows[1:], POINTS):
+            self.assertAlmostEqual(float(row[1]), x, delta=0.75 / 300)
+            self.assertAlmostEqual(float(row[3]), y, delta=0.75 / 240)
+            # Of the ticks' rounding to whole pixels, which five of them do not show in their scatter, and of the
+            # marker's half of a half pixel: without the former it would be 0.27 px.
+            self.assertGreater(float(row[2]), math.hypot(0.25, 0.25) / 300)
+
+    def test_the_documentation_lists_the_shapes(self):
+        run = self.run_it('image = "fig.png"\n' + X + Y + SERIES + 'shape = "heart"\n')
+        names = run.stderr.split("one of ")[1].split(", found")[0].split(", ")
+        self.assertGreater(len(names), 10)
+        text = (pathlib.Path(__file__).parents[3] / "docs" / "digitiser.md").read_text()
+        for name in names:
+            self.assertIn(f"`{name}`", text)
+
+    def test_a_jpeg_is_read_as_viewers_show_it(self):
+        with Image.open(self.at("fig.png")) as picture:
+            upright = picture.convert("RGB")
+        exif = Image.Exif()
+        exif[0x0112] = 6  # to be turned clockwise by a right angle
+        upright.rotate(90, expand=True).save(self.at("fig.jpg"), quality=95, exif=exif.tobytes())
+        run = self.run_it('image = "fig.jpg"\n' + X + Y + SERIES)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn("EXIF orientation", run.stdout)
+        rows = self.rows()
+        self.assertEqual(len(rows), 1 + len(POINTS))
+        for row, (x, y) in zip(rows[1:], POINTS):
+            self.assertAlmostEqual(float(row[1]), x, delta=0.5 / 300)
+            self.assertAlmostEqual(float(row[3]), y, delta=0.5 / 240)
+        upright.save(self.at("fig.jpg"), quality=95, exif=Image.Exif().tobytes())
+        run = self.run_it('image = "fig.jpg"\n' + X + Y + SERIES)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertNotIn("EXIF", run.stdout)
+
+    def test_a_frame_around_the_axis_points_is_found(self):
+        def axis(name, ends):
+            points = ", ".join(f"{{ pixel = [{a:.0f}, {b:.0f}], value = {v} }}" for (a, b), v in ends)
+            return f"[axes.{name}]\npoints = [{points}]\n"
+
+        axes = (axis("x", [(place(0.1, 0.1), 0.1), (place(0.9, 0.1), 0.9)])
+                + axis("y", [(place(0.1, 0.1), 0.1), (place(0.1, 0.9), 0.9)]))
+        run = self.run_it('image = "fig.png"\n' + axes + SERIES)
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        self.assertEqual(len(self.rows()), 1 + len(POINTS))
+
+    def test_inputs_are_not_written_over(self):
+        text = 'image = "fig.png"\n' + X + Y + SERIES
+        with open(self.at("fig.toml"), "w") as file:
+            file.write(text)
+        shutil.copy(self.at("fig.png"), self.at("fig.digitised.png"))
+        os.symlink("fig.png", self.at("link.png"))
+
+        def files():
+            return {path.name: path.read_bytes() for path in pathlib.Path(self.folder).iterdir()}
+
+        before = files()
+        for words in (["fig.toml", "-o", "fig.png"], ["fig.toml", "-o", "./fig.toml"], ["fig.toml", "-o", "link.png"],
+                      ["fig.toml", "-o", "fig.digitised.png"], ["--suggest", "fig.png", "-o", "fig.png"],
+                      ["fig.toml", "--image", "fig.png", "--image", "fig.digitised.png"]):
+            run = subprocess.run([PROGRAM, "digitise", *words], capture_output=True, text=True, cwd=self.folder)
+            self.assertEqual((run.returncode, run.stderr.count("\n")), (2, 1), (words, run.stderr))
+            self.assertIn(words[-1].removeprefix("./"), run.stderr)
+            self.assertTrue(files() == before, words)
+
+    def test_pixels_outside_the_picture_are_refused(self):
+        head, size = 'image = "fig.png"\n', "400 x 300"
+        self.refuses(head + X.replace("[360, 260]", "[3600, 260]") + Y + SERIES, "fig.png", "axes.x", size,
+                     "[3600, 260]")
+        self.refuses(head + X + Y.replace("[60, 20]", "[60, -20]") + SERIES, "fig.png", "axes.y", "[60, -20]")
+        self.refuses(head + "plot_area = [60, 20, 3000, 240]\n" + X + Y + SERIES, "plot_area", size, "3000")
+        self.refuses(head + "exclude = [[500, 20, 30, 240]]\n" + X + Y + SERIES, "exclude", size, "500")
+        box = "template = [395, 100, 16, 16]\n"
+        self.refuses(head + X + Y + SERIES + box, '"a"', "template", size, "[395, 100, 16, 16]")
+        box = "template = [112, 180, 16, 16]\nreference = [1120, 188]\n"
+        self.refuses(head + X + Y + SERIES + box, '"a"', "reference", size, "[1120, 188]")
+        # One that goes to the edge and beyond says what is meant.
+        run = self.run_it(head + "exclude = [[380, -50, 900, 900]]\n" + X + Y + SERIES)
+        self.assertEqual(run.returncode, 0, run.stderr)
+
     def test_bad_files_end_in_one_line(self):
         head = 'image = "fig.png"\n'
         self.refuses(head + X + Y + SERIES.replace("d62728", "2ca02c"), "fig.png", '"a"', "#2ca02c", "found none")
+        # All that is missing at once: a colour that is not there, and markers where there is a curve.
+        with Image.open(self.at("fig.png")) as picture:
+            curve = picture.convert("RGB")
+        ImageDraw.Draw(curve).line([80, 240, 350, 170], fill=(44, 160, 44), width=2)
+        curve.save(self.at("curve.png"))
+        others = "".join(SERIES.replace('"a"', f'"{name}"').replace("d62728", colour)
+                         for name, colour in (("b", "9467bd"), ("c", "2ca02c"), ("d", "1f77b4")))
+        self.refuses('image = "curve.png"\n' + X + Y + others + SERIES, '"b": expected pixels of colour #9467bd',
+                     '"c": expected markers of colour #2ca02c', '"d": expected pixels of colour #1f77b4')
         self.refuses(head + X.replace("[360, 260]", "[60, 260]") + Y + SERIES, "axes.x", "singular")
         self.refuses(head + X.replace("value = 1", "value = 0") + Y + SERIES, "axes.x", "singular")
         self.refuses(head + X + 'scale = "log"\n' + Y + SERIES, "above 0 on a log axis")

@@ -2,6 +2,7 @@
 // The parts of the digitiser that have a closed form.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
@@ -18,6 +19,7 @@
 #include "validation/digitise/stroke.hpp"
 #include "validation/digitise/table.hpp"
 #include "validation/digitise/template.hpp"
+#include "validation/digitise/ticks.hpp"
 #include "validation/digitise/triangle.hpp"
 #include "validation/digitise/uncertainty.hpp"
 
@@ -74,6 +76,30 @@ TEST(Calibration, APickedPixelStandsForTheOneLineBesideIt) {
   const auto measured = axis({{{100.25, 0}, 0}, {{300, 0}, 1}});
   EXPECT_DOUBLE_EQ(places_of(measured, {100.25, 300}, {101}, 1, false)[0].at, 100.25);
   EXPECT_DOUBLE_EQ(places_of(measured, {100.25, 300}, {101}, 1, false)[0].u, 0.1);
+}
+
+TEST(Calibration, AFractionThatIsALinesMiddleIsKnownToTheLinesRoundingOnly) {
+  const auto spec = axis({{{100.07, 0}, 0}, {{300.5, 0}, 1}, {{400.25, 0}, 2}});
+  const auto places = places_of(spec, {100.07, 300.5, 400.25}, {100, 300.5, 401}, 1, false);
+  EXPECT_DOUBLE_EQ(places[0].at, 100);
+  EXPECT_NEAR(places[0].u, 0.5 / std::sqrt(3.0), 1e-12);
+  EXPECT_EQ(places[0].shared, 0);
+  EXPECT_DOUBLE_EQ(places[1].at, 300.25);  // on the middle of a pixel
+  EXPECT_DOUBLE_EQ(places[1].shared, 0.25);
+  EXPECT_DOUBLE_EQ(places[2].at, 400.25);  // no line is there
+  EXPECT_DOUBLE_EQ(places[2].u, 0.1);
+}
+
+TEST(Calibration, RoundingThatDoesNotScatterIsShared) {
+  const auto spec = axis({{{100, 0}, 0}, {{200, 0}, 1}, {{300, 0}, 2}, {{400, 0}, 3}});
+  // A whole number of pixels apart: all are off by the same, which their mean is too.
+  const auto alike = calibrate(spec, {{100, 0.3}, {200, 0.3}, {300, 0.3}, {400, 0.3}}, "f");
+  EXPECT_NEAR(alike.uncertainty(250, 0), 0.01 * 0.3, 1e-12);
+  // Residuals of 0.06 px, two less than there are points free: 0.12 / sqrt(2) to each its own.
+  const auto apart =
+      calibrate(spec, {{100.06, 0.3}, {199.94, 0.3}, {299.94, 0.3}, {400.06, 0.3}}, "f");
+  const double own = 0.12 / std::sqrt(2.0);
+  EXPECT_NEAR(apart.uncertainty(250, 0), 0.01 * std::sqrt(0.09 - own * own + own * own / 4), 1e-5);
 }
 
 TEST(Calibration, LinesOnTheMiddlesOfPixelsShareAnError) {
@@ -140,6 +166,55 @@ TEST(Rules, GridLinesTellThePlotWhereAFrameInThePapersColourCutsThem) {
   const auto area = plot_area(rules, {50, 20, 600, 260}, {800, 400});
   EXPECT_FALSE(area.guess);
   EXPECT_EQ(area.box, cv::Rect2d(50, 20, 600, 260));
+}
+
+TEST(Rules, AFrameMayLieAroundTheCalibrationPoints) {
+  Rules rules;
+  for (const double y : {20.0, 320.0}) rules.rows.push_back({y, 50, 550, 2, 0});
+  for (const double x : {50.0, 550.0}) rules.columns.push_back({x, 20, 320, 2, 0});
+  // A line far from them, and one that does not go along the whole box.
+  rules.rows.push_back({395, 20, 580, 2, 0});
+  rules.rows.push_back({310, 300, 500, 2, 0});
+  const auto area = plot_area(rules, {90, 60, 400, 235}, {600, 400});
+  EXPECT_FALSE(area.guess);
+  EXPECT_EQ(area.box, cv::Rect2d(50, 20, 500, 300));
+  EXPECT_TRUE(plot_area(rules, {200, 60, 200, 235}, {600, 400}).guess);  // too far
+}
+
+/// A plot in a black frame of `thick` pixels about (60, 40) to (560, 340), with ticks of that
+/// thickness inwards, centred at 160.5, 260.5 ... and at 140.5, 240.5.
+cv::Mat framed_plot(int thick) {
+  cv::Mat page(400, 620, CV_8UC3, cv::Scalar::all(255));
+  const auto fill = [&](int x, int y, int width, int height) {
+    page(cv::Rect(x, y, width, height)).setTo(cv::Scalar::all(0));
+  };
+  const int half = thick / 2;
+  for (const int y : {40, 340}) fill(60 - half, y - half, 500 + thick, thick);
+  for (const int x : {60, 560}) fill(x - half, 40 - half, thick, 300 + thick);
+  for (const int x : {160, 260, 360, 460}) fill(x - half, 315, thick, 25);
+  for (const int y : {140, 240}) fill(60, y - half, 25, thick);
+  return page;
+}
+
+TEST(Ticks, AreAtTheMiddleOfTheirInkHoweverThick) {
+  for (const auto& [thick, times] : {std::pair(1, 1), {3, 1}, {5, 1}, {3, 2}, {3, 4}}) {
+    cv::Mat page;
+    cv::resize(framed_plot(thick), page, {}, times, times, cv::INTER_NEAREST);
+    const cv::Rect2d area(60.5 * times, 40.5 * times, 500 * times, 300 * times);
+    const auto ticks = find_ticks(page, area);
+    ASSERT_EQ(ticks.x.size(), 6U) << thick;  // with the frame's sides
+    ASSERT_EQ(ticks.y.size(), 4U) << thick;
+    for (int i = 0; i < 6; ++i) EXPECT_NEAR(ticks.x[i], times * (60.5 + 100 * i), 1e-6) << times;
+    for (int i = 0; i < 4; ++i) EXPECT_NEAR(ticks.y[i], times * (40.5 + 100 * i), 1e-6) << times;
+  }
+}
+
+TEST(Ticks, CurvesThatStartAtAnAxisAreNone) {
+  cv::Mat page = framed_plot(3);
+  cv::line(page, {60, 190}, {300, 190}, cv::Scalar(180, 119, 31), 3);  // level and blue
+  cv::line(page, {60, 290}, {300, 170}, cv::Scalar(0, 0, 0), 4);       // leaning and black
+  cv::line(page, {60, 100}, {300, 100}, cv::Scalar(75, 86, 140), 3);   // brown
+  EXPECT_EQ(find_ticks(page, {60.5, 40.5, 500, 300}).y.size(), 4U);
 }
 
 TEST(Shapes, NamesInManyWords) {
@@ -390,9 +465,28 @@ TEST(Doubt, AnInkThatNoiseCannotTellFromAnother) {
 TEST(Colour, AFineLineThatShowsItsColourThinnedOnly) {
   cv::Mat page(120, 200, CV_8UC3, cv::Scalar::all(255));
   page.row(60).setTo(cv::Scalar(255, 140, 140));  // blue (BGR) at 45 %
-  const auto colours = separate(page, {0, 0, 200, 120}, false, {{244, 0, 8}}, {"a"}, "f");
+  const auto colours = separate(page, {0, 0, 200, 120}, false, {{244, 0, 8}});
   EXPECT_NEAR(coverage_of(colours, colours.ink_of_asked[0]).at<float>(60, 100), 0.45, 0.05);
-  EXPECT_THROW(separate(page, {0, 0, 200, 120}, false, {{0, 200, 0}}, {"a"}, "f"), InputError);
+  const auto none = separate(page, {0, 0, 200, 120}, false, {{0, 200, 0}, {244, 0, 8}});
+  EXPECT_EQ(none.ink_of_asked, (std::vector{-1, 0}));
+}
+
+TEST(Colour, SuggestedInksAreThoseOfTheFullestPlacesOfTheirStrokes) {
+  cv::Mat page(200, 300, CV_8UC3, cv::Scalar::all(255));
+  const std::vector<cv::Vec3f> drawn = {{40, 39, 214}, {178, 114, 0}, {0, 159, 230}, {0, 0, 0}};
+  // Lines that lean over the rows of pixels: shares of 0.5 to 1.
+  for (int k = 0; k < 4; ++k)
+    for (int x = 0; x < 300; ++x) {
+      const float share = 0.5F + 0.5F * static_cast<float>(x % 40) / 39;
+      page.at<cv::Vec3b>(20 + 40 * k, x) =
+          cv::Vec3b((1 - share) * cv::Vec3f(255, 255, 255) + share * drawn[k]);
+    }
+  const auto inks = inks_in(page, {0, 0, 300, 200}, false);
+  EXPECT_EQ(inks.size(), 4U);
+  for (const auto& ink : drawn)
+    EXPECT_TRUE(std::any_of(inks.begin(), inks.end(), [&](cv::Vec3f found) {
+      return cv::norm(found - ink) < 20;
+    })) << hex_of(ink);
 }
 
 TEST(Legend, DashesBetweenMarkersWithBarsAreNoWords) {
