@@ -87,10 +87,7 @@ void clear_ticks(cv::Mat coverage, cv::Mat unknown) {
   const int longest = std::max(8, coverage.cols / 20);
   for (int y = 0; y < coverage.rows; ++y) {
     int x = 0;
-    const auto blank = [&] {  // what the frame leaves when it is cleared
-      return unknown.at<uchar>(y, x) != 0 || (x < 4 && coverage.at<float>(y, x) <= 0.12F);
-    };
-    while (x < coverage.cols && blank()) ++x;
+    while (x < coverage.cols && unknown.at<uchar>(y, x) != 0) ++x;
     if (x > longest) continue;
     const int first = x;
     while (x < coverage.cols && coverage.at<float>(y, x) > 0.12F) ++x;

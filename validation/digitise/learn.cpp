@@ -7,7 +7,6 @@
 #include "validation/digitise/pieces.hpp"
 #include "validation/digitise/search.hpp"
 #include "validation/digitise/stroke.hpp"
-#include "validation/digitise/typical.hpp"
 
 namespace bedscope::digitise {
 namespace {
@@ -40,19 +39,6 @@ Template without_bars(const Template& marker, const std::vector<Shape>& shapes) 
   const auto bare = trimmed(marker, shapes);
   return marker.box.width > bare.box.width + 2 || marker.box.height > bare.box.height + 2 ? bare
                                                                                           : marker;
-}
-
-/// A marker that the user shows without the line or bar that its box holds too, which may be a
-/// large part of that: bare, then the median of the places that it fits well.
-Template without_what_passes(const InkMap& map, const Template& marker,
-                             const std::vector<Shape>& shapes) {
-  const auto bare = trimmed(marker, shapes, 0.4);
-  std::vector<cv::Point2d> places;
-  const auto found = find_markers(map, {bare});
-  for (const auto& one : found[0])
-    if (one.fit.score > well) places.push_back(one.fit.origin);
-  const auto seen = typical(map, bare, places);
-  return seen ? trimmed(*seen, shapes) : bare;
 }
 
 /// Whether ink goes on beside a marker: a line or a bar leaves it.
@@ -137,7 +123,10 @@ std::optional<Template> learn(const InkMap& map, const MarkerQuery& query) {
   const auto shapes = candidates(query.shape);
   if (!query.sample.empty()) {
     auto shape = query.shape.value_or(recognise(query.sample, shapes).first);
-    auto marker = without_what_passes(map, make_template(query.sample, shape), shapes);
+    auto marker = make_template(query.sample, shape);
+    // Its box holds a part of the line or bar too, which may be large beside the marker. Strokes have
+    // no outline to tell these.
+    if (!is_strokes(shape.outline)) marker = trimmed(marker, shapes, 0.4);
     if (query.reference)
       marker.reference =
           *query.reference - cv::Point2d(query.sample.cols / 2.0, query.sample.rows / 2.0);

@@ -137,24 +137,28 @@ std::vector<cv::Rect> find_boxes(const Rules& rules, const cv::Mat& ink, const c
   std::vector<cv::Rect> boxes;
   const double slack = std::max(4.0, 0.02 * std::min(area.width, area.height));
   const auto near = [&](double a, double b) { return std::abs(a - b) < slack; };
-  // Two lines side by side that end alike, and ink that closes the box at both ends. This may go on
-  // at one of them: a grid line, close to the box.
-  const auto find = [&](const std::vector<Rule>& along, const cv::Mat& seen, double wide,
-                        double high, bool is_upright) {
+  // Two lines side by side that end alike, a third that ends where they are, and ink that closes
+  // the box: a grid line close to its last side is taken for a part of that.
+  const auto find = [&](const std::vector<Rule>& along, const std::vector<Rule>& across,
+                        const cv::Mat& seen, double wide, double high, bool is_upright) {
     for (const auto& first : along)
       for (const auto& second : along) {
         const double apart = second.at - first.at;
         if (apart < 0.03 * high || apart > 0.75 * high) continue;
         if (!near(first.from, second.from) || !near(first.to, second.to)) continue;
         if (first.length() < 0.06 * wide || first.length() > 0.75 * wide) continue;
-        const double from = (first.from + second.from) / 2, to = (first.to + second.to) / 2;
-        const bool closed = inked(seen, from, first.at, second.at, slack) > 0.9 &&
-                            inked(seen, to, first.at, second.at, slack) > 0.9;
-        const auto goes_on = [&](double at) {
-          return inked(seen, at, first.at - 2 * slack, first.at - 2, slack) > 0.9 &&
-                 inked(seen, at, second.at + 2, second.at + 2 * slack, slack) > 0.9;
+        const auto joins = [&](double at) {
+          return std::any_of(across.begin(), across.end(), [&](const Rule& rule) {
+            return near(rule.at, at) && rule.from < first.at + slack &&
+                   rule.to > second.at - slack && rule.from > first.at - 2 * slack &&
+                   rule.to < second.at + 2 * slack;
+          });
         };
-        if (!closed || (goes_on(from) && goes_on(to))) continue;
+        const auto closed = [&](double at) {
+          return inked(seen, at, first.at, second.at, slack) > 0.9;
+        };
+        const double from = (first.from + second.from) / 2, to = (first.to + second.to) / 2;
+        if (!(joins(from) && closed(to)) && !(joins(to) && closed(from))) continue;
         cv::Rect box(cvFloor(first.from - 3), cvFloor(first.at - 3), cvCeil(first.length() + 6),
                      cvCeil(apart + 6));
         if (is_upright) box = cv::Rect(box.y, box.x, box.height, box.width);
@@ -163,8 +167,8 @@ std::vector<cv::Rect> find_boxes(const Rules& rules, const cv::Mat& ink, const c
           boxes.push_back(box & area);
       }
   };
-  find(rules.rows, ink, area.width, area.height, false);
-  find(rules.columns, ink.t(), area.height, area.width, true);
+  find(rules.rows, rules.columns, ink, area.width, area.height, false);
+  find(rules.columns, rules.rows, ink.t(), area.height, area.width, true);
   // Boxes of one size, apart from one another, are markers.
   const auto all = boxes;
   std::erase_if(boxes, [&](const cv::Rect& box) {

@@ -256,15 +256,23 @@ void hide_blobs(InkMap& map, double stroke) {
   map.unknown.setTo(255, blobs);
 }
 
+/// The thickness of the line, not that of ticks: away from the plot's edges, where that leaves
+/// some.
+double stroke_inside(const cv::Mat& known) {
+  const int dx = known.cols / 20, dy = known.rows / 20;
+  const cv::Mat inner = known({dy, known.rows - dy}, {dx, known.cols - dx});
+  return stroke_width(cv::sum(inner)[0] > 0.25 * cv::sum(known)[0] ? inner : known);
+}
+
 }  // namespace
 
 TracedLine trace_line(const InkMap& whole, const std::vector<LinePoint>& through, int points) {
   InkMap map{whole.coverage, whole.unknown.clone()};
   cv::Mat known = map.coverage.clone();
   known.setTo(0, map.unknown);
-  hide_blobs(map, stroke_width(known));
+  hide_blobs(map, stroke_inside(known));
   known.setTo(0, map.unknown);
-  const double all = cv::sum(known)[0], stroke = stroke_width(known);
+  const double all = cv::sum(known)[0], stroke = stroke_inside(known);
   const InkMap turned{map.coverage.t(), map.unknown.t()};
   auto turned_through = through;
   for (auto& point : turned_through) std::swap(point.at.x, point.at.y);

@@ -49,15 +49,6 @@ TEST(Clear, AGreyLineOfZeroBesideACurveIsNotData) {
   EXPECT_GT(cv::sum(map.coverage)[0], 1000);
 }
 
-TEST(Clear, TicksBehindTheBlankThatAFrameLeaves) {
-  auto map = empty();
-  for (int y = 20; y < rows; y += 40) map.coverage(cv::Rect(3, y, 8, 2)).setTo(0.5F);
-  map.coverage = cv::max(map.coverage, drawn_stroke({3, 150}, {395, 20}, 3, {columns, rows}));
-  clear_rules(map, true);
-  EXPECT_EQ(cv::sum(map.coverage.rowRange(200, rows))[0], 0);
-  EXPECT_GT(cv::sum(map.coverage)[0], 1000);  // a curve that begins there stays
-}
-
 TEST(Legend, AFrameMayTouchAGridLineAndAnOpenSquareIsNone) {
   cv::Mat ink = cv::Mat::zeros(rows, columns, CV_32F);
   const auto frame = [&](cv::Rect box) { cv::rectangle(ink, box, cv::Scalar(1), 2); };
@@ -84,8 +75,7 @@ TEST(Colour, TwoGuessesOfOneInkAreOneThoughItsEdgesArePaler) {
   cv::rectangle(page, {60, 80, 60, 60}, cv::Scalar(ink[0], ink[1], ink[2]), cv::FILLED);
   cv::rectangle(page, {60, 80, 60, 60}, cv::Scalar(edge[0], edge[1], edge[2]), 1);
   const auto colours =
-      separate(page, {10, 10, 280, 180}, false, {cv::Vec3f(95, 100, 210), cv::Vec3f(70, 84, 190)},
-               {"a", "b"}, "test");
+      separate(page, {10, 10, 280, 180}, false, {cv::Vec3f(95, 100, 210), cv::Vec3f(70, 84, 190)});
   EXPECT_EQ(colours.ink_of_asked[0], colours.ink_of_asked[1]);
   EXPECT_LT(cv::norm(colours.inks[0] - cv::Vec3f(80, 78, 196)), 12);
 }

@@ -397,6 +397,20 @@ TEST(Lines, OtherInkOfTheSameColourDoesNotMoveThePoints) {
         << point.at.x;
 }
 
+TEST(Lines, TicksThatWereNotClearedAreNotTheLine) {
+  constexpr int rows = 240, columns = 300;
+  InkMap map{cv::Mat::zeros(rows, columns, CV_32F), cv::Mat::zeros(rows, columns, CV_8U)};
+  for (int x = 4; x < columns; x += 6) map.coverage(cv::Rect(x, 230, 1, 8)).setTo(1);
+  for (int x = 20; x < 260; x += 80)  // most of a thick line is hidden by its markers
+    map.coverage =
+        cv::max(map.coverage, drawn_stroke({x + 0.0, 150 - x / 4.0},
+                                           {x + 30.0, 150 - (x + 30) / 4.0}, 8, {columns, rows}));
+  const auto line = trace_line(map, {}, 60);
+  ASSERT_GT(line.points.size(), 10U);
+  for (const auto& point : line.points)
+    EXPECT_NEAR(point.at.y, 150 - point.at.x / 4, 0.3) << point.at.x;
+}
+
 TEST(Page, PointsOffByTheirPixelsDoNotTurnAnUprightPicture) {
   Figure figure;
   figure.x = axis({{{50, 200}, 0}, {{350, 201}, 1}});  // 0.2 degrees
