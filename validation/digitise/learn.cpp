@@ -124,8 +124,8 @@ std::optional<Template> learn(const InkMap& map, const MarkerQuery& query) {
   if (!query.sample.empty()) {
     auto shape = query.shape.value_or(recognise(query.sample, shapes).first);
     auto marker = make_template(query.sample, shape);
-    // Its box holds a part of the line or bar too, which may be large beside the marker. Strokes have
-    // no outline to tell these.
+    // Its box holds a part of the line or bar too, which may be large beside the marker. Strokes
+    // have no outline to tell these.
     if (!is_strokes(shape.outline)) marker = trimmed(marker, shapes, 0.4);
     if (query.reference)
       marker.reference =
@@ -141,8 +141,7 @@ std::vector<std::optional<Template>> learn_all(const InkMap& map,
   std::vector<std::optional<Template>> found(queries.size());
   std::vector<bool> sure(queries.size());
   InkMap left{map.coverage.clone(), map.unknown.clone()};
-  for (bool again = true; again;) {
-    again = false;
+  for (;;) {
     std::vector<Template> own;
     for (std::size_t i = 0; i < queries.size(); ++i) {
       if (sure[i]) continue;
@@ -153,13 +152,11 @@ std::vector<std::optional<Template>> learn_all(const InkMap& map,
           queries.size() == 1 || (looks_as_asked(*marker, queries[i]) && fits_well(left, *marker));
       if (sure[i]) own.push_back(*marker);
     }
-    if (own.empty() || std::count(sure.begin(), sure.end(), false) == 0) break;
+    if (own.empty() || std::count(sure.begin(), sure.end(), false) == 0) return found;
     const auto taken = find_markers(left, own);
     for (std::size_t t = 0; t < own.size(); ++t)
       for (const auto& one : taken[t]) take_away(left, own[t], one.fit.origin);
-    again = true;
   }
-  return found;
 }
 
 std::optional<Template> markers_on_line(const InkMap& map) {

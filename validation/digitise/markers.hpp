@@ -32,9 +32,8 @@ struct Marker {
 void take_away(InkMap& map, const Template& marker, cv::Point2d origin);
 
 /// Whether a fit is good enough for a marker: ink in all directions. One eighth may lack it where
-/// the whole fits well: under the edge of
-/// another curve, or at the end of a line whose other markers, and so the template, have it on both
-/// sides. So it is with what is not known.
+/// the whole fits well: under the edge of another curve, or at the end of a line whose other
+/// markers, and so the template, have it on both sides. So it is with what is not known.
 bool is_marker(const Fit& fit);
 
 /// The template that the ink shows for a query: from the user's sample; from markers that stand

@@ -396,7 +396,8 @@ bool is_anothers(const Refined& one, std::size_t i, const std::vector<Refined>& 
   const cv::Point2d at = one.found[i].fit.origin / one.scale;
   const double near = std::max(one.guess.box.width, one.guess.box.height) / 4;
   return std::any_of(rivals.begin(), rivals.end(), [&](const Refined& rival) {
-    return rival.guess.shape.outline != one.guess.shape.outline &&
+    const auto &shape = rival.guess.shape, &own = one.guess.shape;
+    return (shape.outline != own.outline || shape.fill != own.fill) &&
            std::any_of(rival.found.begin(), rival.found.end(), [&](const Marker& other) {
              return other.fit.score > one.found[i].fit.score &&
                     cv::norm(other.fit.origin / rival.scale - at) < near;
@@ -409,14 +410,14 @@ bool is_anothers(const Refined& one, std::size_t i, const std::vector<Refined>& 
 std::optional<Template> search_drawn(const InkMap& map, const std::vector<Shape>& shapes,
                                      const std::vector<Shape>& rivals) {
   const auto all = refine_all(map, shapes);
-  const auto others = rivals.empty() ? all : refine_all(map, rivals);
+  const auto others = rivals.empty() ? std::vector<Refined>{} : refine_all(map, rivals);
   double most = 0;
   const Refined* best = nullptr;
   for (const auto& one : all) {
     double worth = 0;
     int good = 0;
     for (std::size_t i = 0; i < one.found.size(); ++i) {
-      if (!rivals.empty() && is_anothers(one, i, others)) continue;
+      if (is_anothers(one, i, others)) continue;
       worth += one.ink * (one.found[i].fit.score - least_score) * one.distinct[i];
       ++good;
     }
@@ -427,11 +428,13 @@ std::optional<Template> search_drawn(const InkMap& map, const std::vector<Shape>
   if (!best) return std::nullopt;
   const auto& guess = best->guess;
   const auto marker = make_template(drawn_template(guess).ink, guess.shape);
-  std::vector<cv::Point2d> places;
-  for (std::size_t i = 0; i < best->found.size(); ++i)
-    if (!rivals.empty() && !is_anothers(*best, i, others))
-      places.push_back(best->found[i].fit.origin / best->scale);
-  const auto seen = typical(map, marker, rivals.empty() ? guess.places : places);
+  auto places = guess.places;
+  if (!rivals.empty()) {
+    places.clear();
+    for (std::size_t i = 0; i < best->found.size(); ++i)
+      if (!is_anothers(*best, i, others)) places.push_back(best->found[i].fit.origin / best->scale);
+  }
+  const auto seen = typical(map, marker, places);
   return seen ? trimmed(*seen, {guess.shape}) : marker;
 }
 }  // namespace bedscope::digitise
