@@ -289,7 +289,9 @@ Colours separate(const cv::Mat& page, const cv::Rect& area, bool lossy,
       colours.owner.at<int>(y, x) = best;
       colours.coverage.at<float>(y, x) = share;
     }
-  give_edges_to_stronger(inks, difference, smeared, colours);
+  // Compression blurs an edge over some pixels: from each to the next.
+  for (int pass = 0; pass < (smeared ? 3 : 1); ++pass)
+    give_edges_to_stronger(inks, difference, smeared, colours);
   for (const auto& ink : inks) colours.inks.push_back(ink + colours.paper);
   return colours;
 }

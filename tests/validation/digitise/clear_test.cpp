@@ -80,5 +80,22 @@ TEST(Colour, TwoGuessesOfOneInkAreOneThoughItsEdgesArePaler) {
   EXPECT_LT(cv::norm(colours.inks[0] - cv::Vec3f(80, 78, 196)), 12);
 }
 
+TEST(Colour, TheBlurredEdgeOfADarkLineIsNotAPalerInk) {
+  const cv::Scalar dark(178, 114, 0), pale(233, 180, 86);  // BGR
+  cv::Mat page(200, 300, CV_8UC3, cv::Scalar::all(255));
+  page(cv::Rect(20, 58, 260, 4)).setTo(dark);
+  page(cv::Rect(20, 138, 260, 4)).setTo(pale);
+  cv::GaussianBlur(page, page, {}, 1.0);
+  const auto vector = [](const cv::Scalar& c) {
+    return cv::Vec3f(static_cast<float>(c[0]), static_cast<float>(c[1]), static_cast<float>(c[2]));
+  };
+  const auto colours = separate(page, {10, 10, 280, 180}, true, {vector(pale), vector(dark)});
+  const cv::Mat of_pale = coverage_of(colours, colours.ink_of_asked[0]) > 0.1,
+                of_dark = coverage_of(colours, colours.ink_of_asked[1]) > 0.1;
+  EXPECT_EQ(cv::countNonZero(of_pale(cv::Rect(30, 50, 240, 20))), 0);
+  EXPECT_EQ(cv::countNonZero(of_dark(cv::Rect(30, 130, 240, 20))), 0);
+  EXPECT_GT(cv::countNonZero(of_pale(cv::Rect(30, 130, 240, 20))), 4 * 240);
+}
+
 }  // namespace
 }  // namespace bedscope::digitise
