@@ -25,8 +25,9 @@ ErrorBar find_error_bar(const InkMap& map, const Template& marker, cv::Point2d a
 std::vector<ErrorBar> find_error_bars(const InkMap& map, const Template& marker,
                                       const std::vector<cv::Point2d>& at, bool with_line);
 
-/// Leaves out of `markers` those that resemble the others little and lie on the bar of another one:
-/// where a cap or the marker's edge crosses it.
+/// Leaves out of `markers` those that lie on the bar of a better one and resemble the others
+/// little, or are none without that bar's ink: where a cap or the marker's edge crosses it. Two
+/// markers of one abscissa stay as far as the bar leaves enough of them.
 void drop_on_bars(const InkMap& map, const Template& marker, std::vector<Marker>& markers,
                   bool with_line);
 

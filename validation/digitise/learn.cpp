@@ -49,15 +49,6 @@ bool goes_on(const InkMap& map, const Template& marker, cv::Point2d origin) {
   return cv::countNonZero(ink & (grown - marker.inside)) > 0;
 }
 
-/// The breadth of a piece of ink across its longest direction, as a share of its length: of the
-/// standard deviations.
-double breadth_of(const cv::Mat& ink) {
-  const auto m = cv::moments(ink);
-  const double half = (m.mu20 + m.mu02) / 2;
-  const double apart = std::hypot((m.mu20 - m.mu02) / 2, m.mu11);
-  return std::sqrt((half - apart) / (half + apart));
-}
-
 /// Whether a template looks more like the shape that a series names than like those of the others.
 bool looks_as_asked(const Template& marker, const MarkerQuery& query) {
   if (!query.sample.empty() || !query.shape) return true;
@@ -165,7 +156,8 @@ std::optional<Template> markers_on_line(const InkMap& map) {
   // A cross has arms; a blurred dot looks like one without.
   const double least = marker && is_strokes(marker->shape.outline) ? 4 : 2;
   if (!marker || std::min(marker->box.width, marker->box.height) < least * stroke) return {};
-  if (breadth_of(marker->ink) < 0.5) return {};  // dashes
+  const auto spread = spread_of(marker->ink);
+  if (spread.height < 0.5 * spread.width) return {};  // dashes
   const auto found = find_markers(map, {*marker});
   std::vector<double> scores;
   double on_line = 0;

@@ -9,7 +9,8 @@
 
 namespace bedscope::digitise {
 
-/// Boxes drawn with lines that end at their corners (grid lines go on): frames of legends, insets.
+/// Frames of legends and insets: boxes of which three sides at least end at their corners (grid
+/// lines go on; the fourth may lie beside one), with three pieces of ink in them or more.
 std::vector<cv::Rect> find_boxes(const Rules& rules, const cv::Mat& ink, const cv::Rect& area);
 
 /// Rows of text with a sample at its left or right end: something small, at the height of the text,

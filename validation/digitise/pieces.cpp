@@ -20,14 +20,6 @@ bool alike(const Piece& a, const Piece& b) {
          near(a.ink, b.ink, 0.2 * a.ink + 2);
 }
 
-/// The shorter side of a rectangle that is spread as the ink of an image.
-double breadth_of(const cv::Mat& ink) {
-  const auto m = cv::moments(ink);
-  const double half = (m.mu20 + m.mu02) / 2;
-  const double apart = std::hypot((m.mu20 - m.mu02) / 2, m.mu11);
-  return std::sqrt(12 * std::max(0.0, half - apart) / m.m00);
-}
-
 /// The patch of a piece, its box in the middle.
 cv::Mat patch_of(const cv::Mat& coverage, const Piece& piece) {
   constexpr int margin = 1;
@@ -47,6 +39,14 @@ std::vector<cv::Point2d> middles_of(const Group& group) {
 }
 
 }  // namespace
+
+cv::Size2d spread_of(const cv::Mat& ink) {
+  const auto m = cv::moments(ink);
+  const double half = (m.mu20 + m.mu02) / 2;
+  const double apart = std::hypot((m.mu20 - m.mu02) / 2, m.mu11);
+  return {std::sqrt(12 * (half + apart) / m.m00),
+          std::sqrt(12 * std::max(0.0, half - apart) / m.m00)};
+}
 
 std::vector<Piece> pieces_of(const cv::Mat& mask, const InkMap& map) {
   cv::Mat labels, stats, centres, near_unknown;
@@ -71,7 +71,7 @@ std::vector<Piece> pieces_of(const cv::Mat& mask, const InkMap& map) {
       continue;
     cv::Mat own = cv::Mat::zeros(box.size(), CV_32F);
     map.coverage(box).copyTo(own, labels(box) == i);
-    pieces.push_back({box, stats.at<int>(i, cv::CC_STAT_AREA), ink[i], breadth_of(own)});
+    pieces.push_back({box, stats.at<int>(i, cv::CC_STAT_AREA), ink[i], spread_of(own).height});
   }
   return pieces;
 }

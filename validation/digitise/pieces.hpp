@@ -23,6 +23,9 @@ struct Group {
   double resemblance = 0, ink = 0;
 };
 
+/// Length and breadth of a rectangle, at any angle, that is spread as the ink of an image [px].
+cv::Size2d spread_of(const cv::Mat& ink);
+
 /// Connected pieces of `mask` of a marker's size, whole and not beside unknown pixels.
 std::vector<Piece> pieces_of(const cv::Mat& mask, const InkMap& map);
 

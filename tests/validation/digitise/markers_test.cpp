@@ -182,6 +182,11 @@ TEST(Template, APatchOfALineIsNotDistinct) {
   EXPECT_GT(distinct(marker, map, fit(marker, map, {200, 60})), 0.2);
 }
 
+Template square_of(int size) {
+  const Shape square{Outline::square, Fill::filled};
+  return make_template(draw_shape(square, cv::Size(size, size), 1, {size + 4, size + 4}), square);
+}
+
 /// Squares of 11 pixels with bars of the given lengths: both ends of each are found within half a
 /// pixel.
 void expect_bars(const std::vector<double>& lengths, double width, double cap) {
@@ -192,7 +197,7 @@ void expect_bars(const std::vector<double>& lengths, double width, double cap) {
     add(map, marker_at(square, 11, 1, at[i]));
     add_bar(map, at[i], lengths[i], width, cap);
   }
-  const auto marker = make_template(draw_shape(square, {11, 11}, 1, {15, 15}), square);
+  const auto marker = square_of(11);
   const auto bars = find_error_bars(map, marker, at, true);
   for (std::size_t i = 0; i < at.size(); ++i) {
     EXPECT_NEAR(bars[i].upper, at[i].y - lengths[i], 0.5) << i;
@@ -351,7 +356,7 @@ TEST(ErrorBars, AFaintRowBehindACapIsNotTheBars) {
   add(map, marker_at(square, 11, 1, at));
   add_bar(map, at, 30, 3, 8);
   map.coverage(cv::Rect(99, 152, 3, 1)).setTo(0.4);  // noise below the lower cap
-  const auto marker = make_template(draw_shape(square, {11, 11}, 1, {15, 15}), square);
+  const auto marker = square_of(11);
   const auto bar = find_error_bar(map, marker, at, false);
   EXPECT_NEAR(bar.lower, 150, 0.3);
   EXPECT_GT(bar.half_cap, 7);
@@ -364,7 +369,7 @@ TEST(ErrorBars, BehindTheGapThatGnuplotLeavesRoundAMarker) {
   add_bar(map, at, 30, 2, 5);
   map.coverage.setTo(0, marker_at(square, 17, 1, at) > 0.5F);
   add(map, marker_at(square, 11, 1, at));
-  const auto marker = make_template(draw_shape(square, {11, 11}, 1, {15, 15}), square);
+  const auto marker = square_of(11);
   const auto bar = find_error_bar(map, marker, at, false);
   EXPECT_NEAR(bar.upper, at.y - 30, 0.5);
   EXPECT_NEAR(bar.lower, at.y + 30, 0.5);
@@ -413,7 +418,7 @@ TEST(ErrorBars, NothingIsLeftOfThickCapsUnderACover) {
   const cv::Point2d at(100.4, 120.3);
   add(map, marker_at(square, 30, 1, at));
   add_bar(map, at, 70, 8, 20);
-  const auto marker = make_template(draw_shape(square, {30, 30}, 1, {34, 34}), square);
+  const auto marker = square_of(30);
   InkMap rest{map.coverage, map.unknown.clone()};
   cover(rest, find_error_bar(map, marker, at, true), at);
   cv::Mat left = map.coverage.clone();
