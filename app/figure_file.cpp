@@ -157,7 +157,7 @@ SeriesSpec read_series(Table& table, std::size_t number) {
   if (series.reference && !series.sample)
     table.fail(*table.find("reference"),
                "series.reference: expected a template beside it, found none");
-  series.error_bars = table.boolean("error_bars").value_or(true);
+  series.error_bars = table.boolean("error_bars");
   const auto points = table.integer("points").value_or(series.points);
   if (points < 2 || points > 100000)
     table.fail(*table.find("points"), "series.points: expected 2 to 100000, found {}", points);

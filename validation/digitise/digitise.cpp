@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "readers/error.hpp"
+#include "validation/digitise/beside_line.hpp"
 #include "validation/digitise/calibration.hpp"
 #include "validation/digitise/clear.hpp"
 #include "validation/digitise/colour.hpp"
@@ -287,8 +288,13 @@ class Digitiser {
     if (templates.size() < learned.size()) return;
     auto markers = find_markers(map, templates);
     const bool with_line = has_line(members);
+    drop_stretches(map, line_width(map.coverage), templates, markers);
+    if (with_line && !templates.empty()) {
+      const auto line = trace(covered(map, templates, markers, true), all_points(markers), 400);
+      markers = beside_line(map, line, templates, markers);
+    }
     for (std::size_t t = 0; t < templates.size(); ++t)
-      if (figure_.series[with_markers[t]].error_bars)
+      if (figure_.series[with_markers[t]].error_bars.value_or(true))
         drop_on_bars(map, templates[t], markers[t], with_line);
     for (std::size_t t = 0; t < templates.size(); ++t)
       if (markers[t].empty()) miss(figure_.series[with_markers[t]], "markers");
@@ -303,11 +309,7 @@ class Digitiser {
         markers = find_markers(map, templates);
         complete(markers[0], page_.reduction(), page_.angle() != 0, colours_.lossy);
       }
-    const InkMap whole{map.coverage, map.unknown.clone()};
-    cover_markers(map, templates, markers);
-    for (std::size_t t = 0; t < templates.size(); ++t)
-      for (const auto& one : markers[t])
-        cover(map, find_error_bar(whole, templates[t], one.at, with_line), one.at);
+    map = covered(map, templates, markers, with_line);
     if (!with_markers.empty())
       doubt_markers(ink, with_markers, missed_markers(map, templates),
                     incomplete_markers(map, templates), markers);
@@ -437,7 +439,8 @@ class Digitiser {
     found.shape = name_of(marker.shape);
     const cv::Point2d corner = area_.tl();
     std::vector<ErrorBar> bars;
-    if (series.error_bars) {
+    const bool with_bars = series.error_bars.value_or(true);
+    if (with_bars) {
       // Where their ink is seen, not where complete() takes the points to be.
       std::vector<cv::Point2d> seen;
       for (const auto& one : markers) seen.push_back(one.fit.origin + marker.reference);
@@ -446,7 +449,7 @@ class Digitiser {
     for (std::size_t i = 0; i < markers.size(); ++i) {
       const auto& one = markers[i];
       auto point = to_point(one.at + corner, one.u[0], one.u[1]);
-      if (series.error_bars) {
+      if (with_bars) {
         const auto& bar = bars[i];
         point.bar_pixel[0] = bar.lower + corner.y;
         point.bar_pixel[1] = bar.upper + corner.y;
@@ -458,6 +461,12 @@ class Digitiser {
       }
       found.points.push_back(point);
     }
+    if (!series.error_bars)
+      if (const auto stray = drop_stray_bars(found.points); !stray.empty())
+        found_.doubts.push_back(fmt::format(
+            "series \"{}\": {} of {} markers seem to have an error bar, too few to take these for "
+            "bars (error_bars = true takes them): {}",
+            series.name, stray.size(), found.points.size(), listed(stray, {0, 0})));
     if (const auto without = without_bar(found.points); !without.empty())
       found_.doubts.push_back(
           fmt::format("series \"{}\": an end of the error bar is not seen at {} of {} markers: {}",
@@ -466,9 +475,7 @@ class Digitiser {
 
   void store_line(const InkMap& map, const std::vector<LinePoint>& through,
                   const SeriesSpec& series, FoundSeries& found) {
-    InkMap wider = map;
-    cv::dilate(map.unknown, wider.unknown, cv::Mat::ones(3, 3, CV_8U));
-    auto line = trace_line(wider, through, series.points);
+    auto line = trace(map, through, series.points);
     if (line.points.size() < 2) return miss(series, "a line");
     if (line.explained < 0.7)
       found_.doubts.push_back(
@@ -485,6 +492,12 @@ class Digitiser {
       found.points.push_back(to_point(one.at + cv::Point2d(area_.tl()), one.u, one.u));
   }
 
+  static TracedLine trace(const InkMap& map, const std::vector<LinePoint>& through, int points) {
+    InkMap wider = map;
+    cv::dilate(map.unknown, wider.unknown, cv::Mat::ones(3, 3, CV_8U));
+    return trace_line(wider, through, points);
+  }
+
   /// A line goes through the markers of its ink.
   static std::vector<LinePoint> all_points(const std::vector<std::vector<Marker>>& markers) {
     std::vector<LinePoint> points;
@@ -493,18 +506,24 @@ class Digitiser {
     return points;
   }
 
-  /// Under a marker nothing is known of the line.
-  static void cover_markers(InkMap& map, const std::vector<Template>& templates,
-                            const std::vector<std::vector<Marker>>& markers) {
+  /// Under a marker and its bar nothing is known of the line.
+  static InkMap covered(const InkMap& map, const std::vector<Template>& templates,
+                        const std::vector<std::vector<Marker>>& markers, bool with_line) {
+    InkMap rest{map.coverage, map.unknown.clone()};
     for (std::size_t t = 0; t < templates.size(); ++t)
       for (const auto& one : markers[t]) {
         const cv::Size size = templates[t].inside.size();
         const cv::Rect wanted(cvRound(one.fit.origin.x - size.width / 2.0),
                               cvRound(one.fit.origin.y - size.height / 2.0), size.width,
                               size.height);
-        const cv::Rect there = wanted & cv::Rect(0, 0, map.unknown.cols, map.unknown.rows);
-        if (!there.empty()) map.unknown(there).setTo(255, templates[t].inside(there - wanted.tl()));
+        const cv::Rect there = wanted & cv::Rect({0, 0}, rest.unknown.size());
+        if (!there.empty())
+          rest.unknown(there).setTo(255, templates[t].inside(there - wanted.tl()));
       }
+    for (std::size_t t = 0; t < templates.size(); ++t)
+      for (const auto& one : markers[t])
+        cover(rest, find_error_bar(map, templates[t], one.at, with_line), one.at);
+    return rest;
   }
 
   const Figure& figure_;

@@ -84,6 +84,20 @@ std::vector<cv::Point2d> unlike_others(const std::vector<Marker>& markers) {
   return places;
 }
 
+std::vector<cv::Point2d> drop_stray_bars(std::vector<Point>& points) {
+  const auto has_one = [](const Point& point) {
+    return !std::isnan(point.lo) || !std::isnan(point.hi);
+  };
+  if (4 * std::count_if(points.begin(), points.end(), has_one) >= std::ssize(points)) return {};
+  std::vector<cv::Point2d> places;
+  for (auto& point : points) {
+    if (!has_one(point)) continue;
+    places.push_back(point.pixel);
+    point.lo = point.hi = point.bar_pixel[0] = point.bar_pixel[1] = nan;
+  }
+  return places;
+}
+
 std::vector<cv::Point2d> without_bar(const std::vector<Point>& points) {
   std::vector<bool> lacks(points.size());
   std::ptrdiff_t lacking = 0, ends = 0;

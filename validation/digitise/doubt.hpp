@@ -19,6 +19,10 @@ std::vector<cv::Point2d> missed_markers(const InkMap& rest, const std::vector<Te
 /// Markers that fit so much worse than most of their series that they are nearer to being none.
 std::vector<cv::Point2d> unlike_others(const std::vector<Marker>& markers);
 
+/// Takes away the bars of a series in which fewer than a quarter of the markers have one: a steep
+/// line that leaves a marker looks like one. Where they were.
+std::vector<cv::Point2d> drop_stray_bars(std::vector<Point>& points);
+
 /// Markers of which an end of the error bar, lower or upper, is not seen, while it is of most; none
 /// where that is no more than one end in ten, as a short bar hides in its marker.
 std::vector<cv::Point2d> without_bar(const std::vector<Point>& points);

@@ -181,6 +181,10 @@ void drop_on_bars(const InkMap& map, const Template& marker, std::vector<Marker>
   std::vector<ErrorBar> bars;
   for (const auto& one : markers)
     bars.push_back(find_error_bar(map, marker, one.fit.origin + marker.reference, with_line));
+  // Where most markers have none, what looks like one is a steep line or a neighbour.
+  const auto n = std::count_if(bars.begin(), bars.end(),
+                               [](const ErrorBar& bar) { return bar.thickness > 0; });
+  if (2 * n < std::ssize(bars)) return;
   const auto is_of_bar = [&](const Marker& one, const Marker& other, const ErrorBar& bar) {
     if (!(one.fit.score < other.fit.score)) return false;
     const auto at = one.fit.origin + marker.reference, from = other.fit.origin + marker.reference;

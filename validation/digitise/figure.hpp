@@ -34,7 +34,7 @@ struct SeriesSpec {
   std::optional<Shape> shape;      ///< markers: found by itself where left out
   std::optional<cv::Rect> sample;  ///< markers: one of them in the picture, as a template [px]
   std::optional<cv::Point2d> reference;  ///< its reference point [px]; else its centre
-  bool error_bars = true;                ///< markers: look for vertical error bars
+  std::optional<bool> error_bars;        ///< markers: have vertical ones; seen where left out
   int points = 200;                      ///< line: at most so many points
 };
 

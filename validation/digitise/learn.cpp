@@ -33,10 +33,10 @@ double worth(const InkMap& map, const Template& marker) {
   return sum;
 }
 
-/// Of markers that stand alone the bars that stick out by more than two pixels; their edges, which
-/// may be blurred, stay as they are.
-Template without_bars(const Template& marker, const std::vector<Shape>& shapes) {
-  const auto bare = trimmed(marker, shapes);
+/// Of markers that stand alone the bars, or the ends of their line, that stick out by more than two
+/// pixels; their edges, which may be blurred, stay as they are.
+Template without_bars(const Template& marker, const std::vector<Shape>& shapes, bool with_line) {
+  const auto bare = trimmed(marker, shapes, with_line ? 0.4 : 1.0 / 8);
   return marker.box.width > bare.box.width + 2 || marker.box.height > bare.box.height + 2 ? bare
                                                                                           : marker;
 }
@@ -87,7 +87,7 @@ std::optional<Template> found_template(const InkMap& map, const MarkerQuery& que
   const auto alone = best_group(pieces, map.coverage, query.among, shapes, 0.8);
   if (alone && (alone->ink > much * all ||
                 (alone->pieces.size() >= 3 && (query.shape || alone->resemblance > 0.88))))
-    return without_bars(template_of(*alone, map), shapes);
+    return without_bars(template_of(*alone, map), shapes, query.with_line);
   const auto filled = on_lines(map, mask, shapes);
   // Crossings of lines and bars look like small filled markers, but hold little of the ink; patches
   // of a line lie little better than beside. A marker's whole worth is a fifth of its ink, at half

@@ -281,6 +281,7 @@ TracedLine trace_line(const InkMap& whole, const std::vector<LinePoint>& through
   auto line =
       along_x ? sample(map, by_column, stroke, points) : sample(turned, by_row, stroke, points);
   line.along_x = along_x;
+  line.stroke = stroke;
   line.explained = all > 0 ? (along_x ? by_column : by_row).mass / all : 0;
   if (!along_x) {
     for (auto& point : line.points) std::swap(point.at.x, point.at.y);

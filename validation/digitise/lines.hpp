@@ -16,6 +16,7 @@ struct LinePoint {
 struct TracedLine {
   std::vector<LinePoint> points;  ///< in the order of the direction below
   bool along_x = true;            ///< else one point for each y: the curve is a function of y
+  double stroke = 1;              ///< its thickness [px]
   cv::Point2d first, last;        ///< where its ink begins and ends; no place may be there
   double explained = 0;           ///< share of the ink that lies on the line
 };

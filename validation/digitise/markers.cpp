@@ -73,18 +73,20 @@ std::vector<std::vector<Marker>> best_first(const InkMap& map,
     // Again on what is left; alone, nothing has changed for it.
     const auto again = fit(marker, left, candidate.fit.origin);
     if (!is_marker(again) || cv::norm(again.origin - candidate.fit.origin) > 0.3 * size) continue;
-    Marker one;
-    one.fit = again;
-    one.at = again.origin + marker.reference;
-    for (int axis = 0; axis < 2; ++axis)
-      one.u[axis] = std::hypot(again.u[axis], marker.reference_u[axis]);
-    found[candidate.which].push_back(one);
+    found[candidate.which].push_back(marker_at(marker, again));
     take_away(left, marker, again.origin);
   }
   return found;
 }
 
 }  // namespace
+
+Marker marker_at(const Template& marker, const Fit& fit) {
+  Marker one{fit, fit.origin + marker.reference};
+  for (int axis = 0; axis < 2; ++axis)
+    one.u[axis] = std::hypot(fit.u[axis], marker.reference_u[axis]);
+  return one;
+}
 
 void take_away(InkMap& map, const Template& marker, cv::Point2d origin) {
   const cv::Size size = marker.ink.size();
@@ -98,10 +100,13 @@ void take_away(InkMap& map, const Template& marker, cv::Point2d origin) {
   map.coverage(there).setTo(0, ink > 0.15F);
 }
 
-bool is_marker(const Fit& fit) {
-  const double known = fit.score > well ? least_known_well : least_known;
-  return fit.score > least_score && fit.known > known &&
+bool lies_well(const Fit& fit) {
+  return fit.score > least_score &&
          (fit.least_part > least_ink || (fit.next_part > least_ink && fit.score > well));
+}
+
+bool is_marker(const Fit& fit) {
+  return lies_well(fit) && fit.known > (fit.score > well ? least_known_well : least_known);
 }
 
 std::vector<std::vector<Marker>> find_markers(const InkMap& map,

@@ -28,12 +28,18 @@ struct Marker {
   double u[2] = {0, 0};  ///< [px]
 };
 
+/// The marker of a fit: its data point and that point's uncertainty.
+Marker marker_at(const Template& marker, const Fit& fit);
+
 /// Takes a marker's ink out of a map: what it explains is not to be explained again.
 void take_away(InkMap& map, const Template& marker, cv::Point2d origin);
 
-/// Whether a fit is good enough for a marker: ink in all directions. One eighth may lack it where
-/// the whole fits well: under the edge of another curve, or at the end of a line whose other
-/// markers, and so the template, have it on both sides. So it is with what is not known.
+/// Whether what is known of a fit is good enough for a marker: ink in all directions. One eighth
+/// may lack it where the whole fits well: under the edge of another curve, or at the end of a line
+/// whose other markers, and so the template, have it on both sides.
+bool lies_well(const Fit& fit);
+
+/// That, and enough of it is known.
 bool is_marker(const Fit& fit);
 
 /// The template that the ink shows for a query: from the user's sample; from markers that stand

@@ -85,6 +85,7 @@ std::optional<Group> best_group(const std::vector<Piece>& pieces, const cv::Mat&
     if (seen[i]) continue;
     Group group;
     std::vector<std::pair<Shape, double>> verdicts;
+    double most = -1;
     for (std::size_t j = i; j < pieces.size(); ++j)
       if (alike(pieces[i], pieces[j])) {
         const auto verdict = recognise(patch_of(coverage, pieces[j]), among);
@@ -97,6 +98,9 @@ std::optional<Group> best_group(const std::vector<Piece>& pieces, const cv::Mat&
         group.pieces.push_back(pieces[j]);
         group.ink += pieces[j].ink;
         verdicts.push_back(verdict);
+        if (verdict.second <= most) continue;
+        most = verdict.second;
+        group.clearest = pieces[j];
       }
     if (verdicts.empty()) continue;
     std::nth_element(
@@ -110,8 +114,7 @@ std::optional<Group> best_group(const std::vector<Piece>& pieces, const cv::Mat&
 }
 
 Template template_of(const Group& group, const InkMap& map) {
-  const auto& piece = group.pieces[group.pieces.size() / 2];
-  const auto marker = make_template(patch_of(map.coverage, piece), group.shape);
+  const auto marker = make_template(patch_of(map.coverage, group.clearest), group.shape);
   return typical(map, marker, middles_of(group)).value_or(marker);
 }
 
@@ -124,7 +127,7 @@ std::optional<Template> on_lines(const InkMap& map, const cv::Mat& mask,
   // Bars may be thicker than the line: the first opening that leaves a clear shape, else the one
   // that leaves the clearest. A larger one cuts corners.
   std::optional<Group> best;
-  InkMap best_cores;
+  std::optional<Template> whole;
   for (const double factor : {1.5, 2.2, 3.2, 4.6}) {
     const int disc = 2 * cvRound(factor * stroke / 2 + 0.6) + 1;
     const cv::Mat element = cv::getStructuringElement(cv::MORPH_ELLIPSE, {disc, disc});
@@ -143,20 +146,22 @@ std::optional<Template> on_lines(const InkMap& map, const cv::Mat& mask,
     const auto group = best_group(pieces, cores.coverage, candidates(std::nullopt), filled, 0.8);
     if (!group || group->pieces.size() < 2 || (best && group->resemblance <= best->resemblance))
       continue;
+    const auto core = template_of(*group, cores);
+    // Once more with the whole ink: the opening has rounded the corners.
+    const auto marker = trimmed(typical(map, core, middles_of(*group)).value_or(core), filled);
+    // A piece of its line is left on it.
+    if (!is_proportioned(marker.shape.outline, marker.box)) continue;
     best = group;
-    best_cores = cores;
+    whole = marker;
     if (best->resemblance > 0.95) break;
   }
   if (!best) return std::nullopt;
-  const auto marker = template_of(*best, best_cores);
-  // Once more with the whole ink: the opening has rounded the corners.
-  const auto whole = trimmed(typical(map, marker, middles_of(*best)).value_or(marker), filled);
   // What lies in many more places than the opening left, and there not much better than beside, is
   // a stretch of a line.
-  const auto found = find_markers(map, {whole})[0];
+  const auto found = find_markers(map, {*whole})[0];
   double better = 0;
   for (const auto& one : found)
-    better += distinct(whole, map, one.fit) / static_cast<double>(found.size());
+    better += distinct(*whole, map, one.fit) / static_cast<double>(found.size());
   if (found.size() > 4 * best->pieces.size() && better < 0.3) return std::nullopt;
   return whole;
 }

@@ -19,6 +19,7 @@ struct Piece {
 /// Pieces of one size and shape.
 struct Group {
   std::vector<Piece> pieces;
+  Piece clearest;  ///< the one that resembles its shape most
   Shape shape;
   double resemblance = 0, ink = 0;
 };

@@ -69,19 +69,6 @@ std::vector<std::pair<double, cv::Point2d>> peaks(const cv::Mat& coverage, const
   return found;
 }
 
-/// Programs draw markers as wide as high, but for thin diamonds and flat triangles (an equilateral
-/// one is 0.87 as high as wide); a small one is off by its whole pixels. A sliver of a bar or of a
-/// line, that would explain more ink than a marker, is none.
-bool is_proportioned(Outline outline, cv::Size2d box) {
-  constexpr double rounding = 1.18;
-  const bool lying = outline == Outline::triangle_left || outline == Outline::triangle_right;
-  double narrowest = 1, widest = 1;
-  if (outline == Outline::diamond) narrowest = 0.6;
-  if (is_triangle(outline)) (lying ? narrowest : widest) = lying ? 0.87 : 1 / 0.87;
-  const double ratio = box.width / box.height;
-  return ratio > narrowest / rounding && ratio < widest * rounding;
-}
-
 /// The thickest stroke of a marker as a share of its width. An open one has a hole of three tenths
 /// of its inscribed circle or more; one without would lie as well as a filled one.
 double thickest_stroke(const Shape& shape) {
@@ -281,17 +268,18 @@ class Sizes {
   std::map<int, Level> levels_;
 };
 
-/// The mean score of the better half of a guess's best places. Blurred, a size off by a tenth
-/// still counts for something; an outline of one pixel would else not lie on that in the picture.
+/// The mean score of the three best of a guess's places (larger filled markers, which correlate
+/// well with any outline in them, may hold the first). Blurred, a size off by a tenth still counts
+/// for something; an outline of one pixel would else not lie on that in the picture.
 double resemblance(const Sizes::Level& level, const Guess& guess, bool blurred) {
   auto marker = drawn_template(guess);
   if (blurred) cv::GaussianBlur(marker.ink, marker.ink, {}, Sizes::blur);
   std::vector<double> scores;
-  for (std::size_t i = 0; i < std::min<std::size_t>(6, guess.places.size()); ++i)
+  for (std::size_t i = 0; i < std::min<std::size_t>(12, guess.places.size()); ++i)
     scores.push_back(
         std::max(0.0, fit(marker, blurred ? level.blurred : level.sharp, guess.places[i]).score));
   std::sort(scores.rbegin(), scores.rend());
-  scores.resize((scores.size() + 1) / 2);
+  scores.resize(std::min<std::size_t>(3, (scores.size() + 1) / 2));
   return std::accumulate(scores.begin(), scores.end(), 0.0) / static_cast<double>(scores.size());
 }
 
@@ -428,12 +416,13 @@ std::optional<Template> search_drawn(const InkMap& map, const std::vector<Shape>
   if (!best) return std::nullopt;
   const auto& guess = best->guess;
   const auto marker = make_template(drawn_template(guess).ink, guess.shape);
-  auto places = guess.places;
-  if (!rivals.empty()) {
-    places.clear();
-    for (std::size_t i = 0; i < best->found.size(); ++i)
-      if (!is_anothers(*best, i, others)) places.push_back(best->found[i].fit.origin / best->scale);
+  std::vector<cv::Point2d> places;
+  if (rivals.empty()) {
+    const auto found = find_markers(map, {marker});  // of which the guess may have had two
+    for (const auto& one : found[0]) places.push_back(one.fit.origin);
   }
+  for (std::size_t i = 0; i < best->found.size() && !rivals.empty(); ++i)
+    if (!is_anothers(*best, i, others)) places.push_back(best->found[i].fit.origin / best->scale);
   const auto seen = typical(map, marker, places);
   return seen ? trimmed(*seen, {guess.shape}) : marker;
 }

@@ -176,6 +176,16 @@ bool is_strokes(Outline outline) {
          outline == Outline::cross;
 }
 
+bool is_proportioned(Outline outline, cv::Size2d box) {
+  constexpr double rounding = 1.18;
+  const bool lying = outline == Outline::triangle_left || outline == Outline::triangle_right;
+  double narrowest = 1, widest = 1;
+  if (outline == Outline::diamond) narrowest = 0.6;
+  if (is_triangle(outline)) (lying ? narrowest : widest) = lying ? 0.87 : 1 / 0.87;
+  const double ratio = box.width / box.height;
+  return ratio > narrowest / rounding && ratio < widest * rounding;
+}
+
 cv::Mat draw_shape(const Shape& shape, cv::Size2d box, double stroke, cv::Size size,
                    cv::Point2d off) {
   cv::Mat canvas = cv::Mat::zeros(size.height * fine, size.width * fine, CV_8U);

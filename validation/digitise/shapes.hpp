@@ -43,6 +43,11 @@ std::vector<std::string_view> outline_names();
 bool is_triangle(Outline outline);
 bool is_strokes(Outline outline);  ///< plus, x, asterisk: no inside
 
+/// Programs draw markers as wide as high, but for thin diamonds and flat triangles (an equilateral
+/// one is 0.87 as high as wide); a small one is off by its whole pixels. A sliver of a bar or of a
+/// line, that would explain more ink than a marker, is none.
+bool is_proportioned(Outline outline, cv::Size2d box);
+
 /// The outline (no cross) scaled to a width and height in pixels, filled or as a stroke whose outer
 /// edge touches the box, drawn with anti-aliasing `off` the middle of an image of `size` pixels.
 /// Returns coverage 0 to 1, CV_32F.

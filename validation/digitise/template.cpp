@@ -344,9 +344,10 @@ Template reshaped(const Template& marker, const std::vector<Shape>& shapes) {
   double least = std::min(0.4, drawn_like(ink, best.outline).differs);
   for (const auto& one : shapes) {
     if (is_strokes(one.outline) || one.fill != marker.shape.fill) continue;
-    const double now = drawn_like(ink, one.outline).differs;
-    if (now >= least) continue;
-    least = now;
+    const auto drawn = drawn_like(ink, one.outline);
+    // Half of a diamond, its other half beyond the image, is a triangle.
+    if (drawn.differs >= least || !is_proportioned(one.outline, drawn.box.size())) continue;
+    least = drawn.differs;
     best = one;
   }
   return best.outline == marker.shape.outline ? marker : make_template(ink, best);
@@ -374,7 +375,12 @@ Template trimmed(const Template& marker, const std::vector<Shape>& shapes, doubl
   const cv::Mat outline =
       draw_shape({shape.outline, Fill::filled}, {box.width + 1, box.height + 1}, 1, ink.size(),
                  {box.x + box.width / 2 - ink.cols / 2.0, box.y + box.height / 2 - ink.rows / 2.0});
-  return make_template(cv::min(ink, outline), shape);
+  const cv::Mat bare = cv::min(ink, outline);
+  // Filled and open have one silhouette.
+  std::vector<Shape> fills;
+  for (const auto& one : shapes)
+    if (one.outline == shape.outline) fills.push_back(one);
+  return make_template(bare, recognise(bare, fills).first);
 }
 
 Template make_template(const cv::Mat& ink, const Shape& shape) {
@@ -417,6 +423,44 @@ cv::Mat window(const cv::Mat& image, cv::Point2d origin, cv::Size size, double o
 cv::Mat laid(const Template& marker, cv::Point2d origin, cv::Point middle) {
   return shifted(marker.ink, origin - cv::Point2d(middle.x + (marker.ink.cols % 2) / 2.0,
                                                   middle.y + (marker.ink.rows % 2) / 2.0));
+}
+
+Fit seen_at(const Template& marker, const InkMap& map, cv::Point2d origin) {
+  Fit found;
+  found.origin = origin;
+  const cv::Size size = marker.ink.size();
+  const auto part = part_of(map, origin, size);
+  if (!part) return found;
+  const auto& [seen, unknown, middle] = *part;
+  const cv::Mat model = laid(marker, origin, middle);
+  double all = 0, known = 0;
+  std::array<double, 8> there_of{}, ink_of{};
+  const cv::Point2d centre =
+      origin - cv::Point2d(middle - cv::Point(size.width / 2, size.height / 2));
+  const double core = 0.2 * std::min(marker.box.width, marker.box.height);
+  for (int y = 0; y < size.height; ++y)
+    for (int x = 0; x < size.width; ++x) {
+      const double m = std::clamp(model.at<float>(y, x), 0.0F, 1.0F);
+      all += m * m;
+      if (unknown.at<uchar>(y, x) != 0) continue;
+      known += m * m;
+      const cv::Point2d arm(x + 0.5 - centre.x, y + 0.5 - centre.y);
+      if (cv::norm(arm) < core) continue;
+      const auto eighth =
+          static_cast<std::size_t>(cvRound(std::atan2(arm.y, arm.x) * 4 / std::numbers::pi) + 8) %
+          8;
+      there_of[eighth] += m * std::min<double>(m, seen.at<float>(y, x));
+      ink_of[eighth] += m * m;
+    }
+  std::vector<double> parts{1, 1};
+  for (std::size_t eighth = 0; eighth < 8; ++eighth)
+    if (ink_of[eighth] > 0.03 * all) parts.push_back(there_of[eighth] / ink_of[eighth]);
+  std::partial_sort(parts.begin(), parts.begin() + 2, parts.end());
+  found.least_part = parts[0];
+  found.next_part = parts[1];
+  found.score = explained(marker, origin, model, *part);
+  found.known = all > 0 ? known / all : 0;
+  return found;
 }
 
 Fit fit(const Template& marker, const InkMap& map, cv::Point2d near) {
@@ -462,38 +506,10 @@ Fit fit(const Template& marker, const InkMap& map, cv::Point2d near) {
     if (cv::norm(origin - guess) > reach) return found;
     if (cv::norm(change) < 2e-3) break;
   }
-  model = laid(marker, origin, middle);
-  double all = 0, known = 0;
-  std::array<double, 8> there_of{}, ink_of{};
-  const cv::Point2d centre =
-      origin - cv::Point2d(middle - cv::Point(size.width / 2, size.height / 2));
-  const double core = 0.2 * std::min(marker.box.width, marker.box.height);
-  for (int y = 0; y < size.height; ++y)
-    for (int x = 0; x < size.width; ++x) {
-      const double m = std::clamp(model.at<float>(y, x), 0.0F, 1.0F);
-      all += m * m;
-      if (unknown.at<uchar>(y, x) != 0) continue;
-      known += m * m;
-      const cv::Point2d arm(x + 0.5 - centre.x, y + 0.5 - centre.y);
-      if (cv::norm(arm) < core) continue;
-      const auto eighth =
-          static_cast<std::size_t>(cvRound(std::atan2(arm.y, arm.x) * 4 / std::numbers::pi) + 8) %
-          8;
-      there_of[eighth] += m * std::min<double>(m, seen.at<float>(y, x));
-      ink_of[eighth] += m * m;
-    }
-  std::vector<double> parts{1, 1};
-  for (std::size_t eighth = 0; eighth < 8; ++eighth)
-    if (ink_of[eighth] > 0.03 * all) parts.push_back(there_of[eighth] / ink_of[eighth]);
-  std::partial_sort(parts.begin(), parts.begin() + 2, parts.end());
-  found.least_part = parts[0];
-  found.next_part = parts[1];
+  found = seen_at(marker, map, origin);
   const double det = xx * yy - xy * xy, variance = squares / std::max(1.0, weights - 2);
-  found.origin = origin;
   found.u[0] = std::sqrt(variance * yy / det);
   found.u[1] = std::sqrt(variance * xx / det);
-  found.score = explained(marker, origin, model, *part);
-  found.known = all > 0 ? known / all : 0;
   return found;
 }
 

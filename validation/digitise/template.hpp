@@ -59,6 +59,9 @@ Template trimmed(const Template& marker, const std::vector<Shape>& shapes, doubl
 /// its own size: correlation in one box takes a triangle that has lost its tip for a pentagon.
 Template reshaped(const Template& marker, const std::vector<Shape>& shapes);
 
+/// A template laid at `origin`, whether it lies well there or not; u is not known.
+Fit seen_at(const Template& marker, const InkMap& map, cv::Point2d origin);
+
 /// Least squares over the shift from the best whole pixel near `near`, with weights that leave out
 /// what does not belong to the marker (lines through it, error bars, neighbours).
 Fit fit(const Template& marker, const InkMap& map, cv::Point2d near);

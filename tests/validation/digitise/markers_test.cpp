@@ -285,6 +285,68 @@ TEST(Learn, DashesOfALineBesideItsMarkersAreNone) {
   EXPECT_EQ(find_markers(map, {*marker})[0].size(), at.size());
 }
 
+TEST(Learn, APieceOfTheirLineOnMostMarkersIsNotTheirs) {
+  auto map = empty();
+  const auto at = places(9);
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    add(map, marker_at({Outline::triangle_down, Fill::open}, 20, 3, at[i]));
+    // A dash to the left, one to the right, none: within the box, so that all are of one size.
+    if (i % 3 < 2)
+      add(map,
+          stroke_from(at[i] + cv::Point2d(0, 8), at[i] + cv::Point2d(i % 3 == 0 ? -9 : 9, -1), 4));
+  }
+  MarkerQuery query;
+  query.with_line = true;
+  const auto marker = learn(map, query);
+  ASSERT_TRUE(marker);
+  EXPECT_EQ(name_of(marker->shape), "open triangle_down");
+  EXPECT_EQ(find_markers(map, {*marker})[0].size(), at.size());
+}
+
+TEST(Learn, FilledMarkersThatAThickLineTouchesAreAsWideAsHigh) {
+  auto map = empty();
+  add(map, stroke_from({8, 150}, {412, 109.6}, 5));
+  std::vector<cv::Point2d> at;
+  for (const double aside : {-5, 5, -5, 5, 0, -5, 5, 0, 5}) {
+    const double x = 30.3 + 44.6 * static_cast<double>(at.size());
+    at.emplace_back(x, 150 - 0.1 * (x - 8) + aside);
+  }
+  for (const auto place : at) add(map, marker_at({Outline::square, Fill::filled}, 13, 1, place));
+  MarkerQuery query;
+  query.with_line = true;
+  const auto marker = learn(map, query);
+  ASSERT_TRUE(marker);
+  EXPECT_EQ(name_of(marker->shape), "filled square");
+  EXPECT_EQ(find_markers(map, {*marker})[0].size(), at.size());
+}
+
+TEST(Learn, RingsBesideLargerFilledMarkersOfTheirInk) {
+  auto map = empty();
+  std::vector<cv::Point2d> rings, diamonds;
+  for (int i = 0; i < 9; ++i) rings.emplace_back(24.3 + 45.2 * i, 160.4 + 30 * std::sin(0.9 * i));
+  for (int i = 0; i < 7; ++i) diamonds.emplace_back(40.1 + 56.3 * i, 60.2 + 4.5 * i);
+  for (const auto at : rings) {
+    add_bar(map, at, 22, 2, 6);
+    add(map, marker_at({Outline::circle, Fill::open}, 15, 3, at));
+  }
+  for (const auto at : diamonds) {
+    add_bar(map, at, 26, 2, 6);
+    add(map, marker_at({Outline::diamond, Fill::filled}, 21, 1, at));
+  }
+  const Shape ring{Outline::circle, Fill::open}, diamond{Outline::diamond, Fill::filled};
+  MarkerQuery of_rings, of_diamonds;
+  of_rings.shape = ring;
+  of_diamonds.shape = diamond;
+  of_rings.among = of_diamonds.among = {ring, diamond};
+  of_rings.rivals = {diamond};
+  of_diamonds.rivals = {ring};
+  const auto learned = learn_all(map, {of_rings, of_diamonds});
+  ASSERT_TRUE(learned[0] && learned[1]);
+  const auto found = find_markers(map, {*learned[0], *learned[1]});
+  EXPECT_EQ(found[0].size(), rings.size());
+  EXPECT_EQ(found[1].size(), diamonds.size());
+}
+
 TEST(Pieces, ADashIsAsBroadAsItsLineThoughItsBoxIsSquare) {
   auto map = empty();
   add(map, stroke_from({100, 100}, {108, 108}, 2.5));

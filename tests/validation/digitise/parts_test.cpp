@@ -571,6 +571,25 @@ TEST(Doubt, AMarkerUnderTheEdgeOfAnotherCurve) {
   EXPECT_LT(cv::norm(incomplete_markers(rest, {marker})[0] - cv::Point2d(57, 27)), 3);
 }
 
+TEST(Doubt, BarsAtAFewMarkersAreNone) {
+  std::vector<Point> points(9);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    points[i].pixel = {10.0 * static_cast<double>(i), 50};
+  points[2].bar_pixel[0] = 60;
+  points[2].lo = 1.5;
+  points[5].bar_pixel[1] = 40;
+  points[5].hi = 2.5;
+  const auto stray = drop_stray_bars(points);
+  ASSERT_EQ(stray.size(), 2U);
+  EXPECT_EQ(stray[1], points[5].pixel);
+  EXPECT_TRUE(std::isnan(points[2].lo) && std::isnan(points[2].bar_pixel[0]));
+  EXPECT_TRUE(std::isnan(points[5].hi) && std::isnan(points[5].bar_pixel[1]));
+  points.resize(8);
+  for (const std::size_t i : {1, 4}) points[i].lo = 1;
+  EXPECT_TRUE(drop_stray_bars(points).empty());
+  EXPECT_EQ(points[4].lo, 1);
+}
+
 TEST(Doubt, AnErrorBarOfWhichAnEndIsNotSeenWhileMostAre) {
   std::vector<Point> points(5);
   for (std::size_t i = 0; i < points.size(); ++i) {

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Markers beside, on and under a line of their ink.
+#include "validation/digitise/beside_line.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "tests/validation/digitise/drawn_stroke.hpp"
+
+namespace bedscope::digitise {
+namespace {
+
+const cv::Size plot(420, 240);
+
+cv::Mat drawn(const Shape& shape, double size, double stroke, cv::Point2d at) {
+  return draw_shape(shape, {size, size}, stroke, plot,
+                    {at.x - plot.width / 2.0, at.y - plot.height / 2.0});
+}
+
+/// A line from left to right of `width` pixels, and markers over it.
+struct Scene {
+  InkMap map{cv::Mat::zeros(plot, CV_32F), cv::Mat::zeros(plot, CV_8U)};
+  TracedLine line;
+  Template marker;
+};
+
+Scene scene(const Shape& shape, double size, double stroke, double width,
+            const std::vector<cv::Point2d>& at) {
+  Scene made;
+  const cv::Point2d left(10, 160.3), right(410, 80.3);
+  made.map.coverage = drawn_stroke(left, right, width, plot);
+  for (const auto place : at)
+    made.map.coverage = cv::max(made.map.coverage, drawn(shape, size, stroke, place));
+  for (int i = 0; i <= 20; ++i) made.line.points.push_back({left + i / 20.0 * (right - left), 0.1});
+  made.line.first = left;
+  made.line.last = right;
+  made.line.stroke = width;
+  const cv::Size canvas(cvCeil(size) + 2, cvCeil(size) + 2);
+  made.marker = make_template(draw_shape(shape, {size, size}, stroke, canvas), shape);
+  return made;
+}
+
+Marker placed(const Scene& made, cv::Point2d at) {
+  return marker_at(made.marker, seen_at(made.marker, made.map, at - made.marker.reference));
+}
+
+TEST(BesideLine, AFilledMarkerThatALineDrewOverGoesBackToItsEdges) {
+  const cv::Point2d at(200.4, 131.2);  // the line touches its upper edge
+  const auto made = scene({Outline::square, Fill::filled}, 13, 1, 6, {at});
+  const auto again =
+      beside_line(made.map, made.line, {made.marker}, {{placed(made, at - cv::Point2d(0, 3.5))}});
+  ASSERT_EQ(again[0].size(), 1U);
+  EXPECT_NEAR(again[0][0].at.x, at.x, 0.1);
+  EXPECT_NEAR(again[0][0].at.y, at.y, 0.1);
+}
+
+TEST(BesideLine, MarkersOfAThinStrokeUnderAThickLineAreFound) {
+  std::vector<cv::Point2d> at;
+  for (const double x : {60.2, 170.6, 301.4}) at.emplace_back(x, 162.3 - 0.2 * x);
+  const auto made = scene({Outline::circle, Fill::open}, 19, 1.6, 7, at);
+  const auto again = beside_line(made.map, made.line, {made.marker}, {{}});
+  ASSERT_EQ(again[0].size(), at.size());
+  for (const auto& one : again[0])
+    EXPECT_TRUE(std::any_of(at.begin(), at.end(), [&](cv::Point2d place) {
+      return cv::norm(one.at - place) < 0.2;
+    })) << one.at;
+}
+
+TEST(BesideLine, WhatTheLineCoversStaysWhereItWas) {
+  const cv::Point2d at(200.4, 122.2);
+  const auto made = scene({Outline::circle, Fill::filled}, 7, 1, 7, {at});
+  const auto again = beside_line(made.map, made.line, {made.marker}, {{placed(made, at)}});
+  ASSERT_EQ(again[0].size(), 1U);
+  EXPECT_EQ(again[0][0].at, at);
+}
+
+TEST(Stretches, OfALineAreDroppedAndMarkersOnItStay) {
+  const std::vector<cv::Point2d> at{{60.2, 150.3}, {170.6, 128.2}, {301.4, 102.0}, {240.5, 60.2}};
+  for (const Shape shape : {Shape{Outline::x, Fill::any}, Shape{Outline::circle, Fill::filled},
+                            Shape{Outline::diamond, Fill::open}}) {
+    const auto made = scene(shape, 13, 3, 4, at);
+    std::vector<std::vector<Marker>> found(1);
+    for (const auto place : at) found[0].push_back(placed(made, place));
+    for (const double x : {100.3, 140.2, 350.4})
+      found[0].push_back(placed(made, {x, 162.3 - 0.2 * x}));
+    drop_stretches(made.map, 4, {made.marker}, found);
+    ASSERT_EQ(found[0].size(), at.size()) << name_of(shape);
+    for (std::size_t i = 0; i < at.size(); ++i)
+      EXPECT_LT(cv::norm(found[0][i].at - at[i]), 0.3) << name_of(shape);
+  }
+}
+
+}  // namespace
+}  // namespace bedscope::digitise
