@@ -307,6 +307,7 @@ class Digitiser {
       if (const auto unasked = markers_on_line(map)) {
         templates.push_back(*unasked);
         markers = find_markers(map, templates);
+        drop_stretches(map, line_width(map.coverage), templates, markers);
         complete(markers[0], page_.reduction(), page_.angle() != 0, colours_.lossy);
       }
     map = covered(map, templates, markers, with_line);

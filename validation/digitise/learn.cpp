@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
+#include "validation/digitise/beside_line.hpp"
 #include "validation/digitise/markers.hpp"
 #include "validation/digitise/pieces.hpp"
 #include "validation/digitise/search.hpp"
@@ -156,9 +157,9 @@ std::optional<Template> markers_on_line(const InkMap& map) {
   // A cross has arms; a blurred dot looks like one without.
   const double least = marker && is_strokes(marker->shape.outline) ? 4 : 2;
   if (!marker || std::min(marker->box.width, marker->box.height) < least * stroke) return {};
-  const auto spread = spread_of(marker->ink);
-  if (spread.height < 0.5 * spread.width) return {};  // dashes
-  const auto found = find_markers(map, {*marker});
+  if (spread_of(marker->ink).height < 2 * stroke) return {};  // dashes
+  auto found = find_markers(map, {*marker});
+  drop_stretches(map, line_width(map.coverage), {*marker}, found);
   std::vector<double> scores;
   double on_line = 0;
   for (const auto& one : found[0]) {
