@@ -327,12 +327,13 @@ TEST(Learn, RingsBesideLargerFilledMarkersOfTheirInk) {
   for (int i = 0; i < 7; ++i) diamonds.emplace_back(40.1 + 56.3 * i, 60.2 + 4.5 * i);
   for (const auto at : rings) {
     add_bar(map, at, 22, 2, 6);
-    add(map, marker_at({Outline::circle, Fill::open}, 15, 3, at));
+    add(map, marker_at({Outline::circle, Fill::open}, 15, 2.2, at));
   }
   for (const auto at : diamonds) {
     add_bar(map, at, 26, 2, 6);
-    add(map, marker_at({Outline::diamond, Fill::filled}, 21, 1, at));
+    add(map, marker_at({Outline::diamond, Fill::filled}, 22, 1, at));
   }
+  cv::GaussianBlur(map.coverage, map.coverage, {}, 0.5);
   const Shape ring{Outline::circle, Fill::open}, diamond{Outline::diamond, Fill::filled};
   MarkerQuery of_rings, of_diamonds;
   of_rings.shape = ring;
@@ -472,6 +473,27 @@ TEST(ErrorBars, OnABarIsAMarkerOnlyByInkThatIsNotTheBars) {
   drop_on_bars(map, marker, markers, false);
   EXPECT_EQ(markers.size(), 7U);
   EXPECT_NEAR(markers.back().fit.origin.y, at[4].y + below.y, 1);
+}
+
+TEST(ErrorBars, AMarkerOnASteepLineIsNotTheCapOfABar) {
+  auto map = empty();
+  const Shape triangle{Outline::triangle_down, Fill::filled};
+  std::vector<cv::Point2d> at = places(7);
+  at.push_back(at[3] + cv::Point2d(1, 24));
+  for (std::size_t i = 1; i < 7; ++i) add(map, stroke_from(at[i - 1], at[i], 2));
+  add(map, stroke_from(at[3], at[7], 2));
+  for (const auto place : at) add(map, marker_at(triangle, 13, 1, place));
+  cv::GaussianBlur(map.coverage, map.coverage, {}, 0.7);
+  cv::Mat ink = draw_shape(triangle, {13, 13}, 1, {19, 19});
+  cv::GaussianBlur(ink, ink, {}, 0.7);
+  const auto marker = make_template(ink, triangle);
+  std::vector<Marker> markers;
+  for (const auto place : at) markers.push_back(marker_at(marker, fit(marker, map, place)));
+  const auto bar = find_error_bar(map, marker, markers[7].at, true);
+  ASSERT_FALSE(std::isnan(bar.upper));  // the line up to the next one looks like a bar
+  markers[3].fit.score = std::min(markers[3].fit.score, markers[7].fit.score - 0.01);
+  drop_on_bars(map, marker, markers, true);
+  EXPECT_EQ(markers.size(), at.size());
 }
 
 TEST(ErrorBars, NothingIsLeftOfThickCapsUnderACover) {
