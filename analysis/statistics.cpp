@@ -232,8 +232,10 @@ Fit fit(std::vector<double> deviations, const std::vector<double>& shape) {
       std::inner_product(shape.begin(), shape.end(), deviations.begin(), 0.0) / spread;
   for (std::size_t i = 0; i < shape.size(); ++i) deviations[i] -= amplitude * shape[i];
   const double residue = sum_of_squares(deviations);
-  const double variance = residue / static_cast<double>(shape.size() - 2) *
-                          autocorrelation_time(deviations).value / spread;
+  // What a fit leaves swings against itself, the more so the shorter it is: a time below that of
+  // white noise would be taken from the fit, not from the series.
+  const double time = std::max(1.0, autocorrelation_time(deviations).value);
+  const double variance = residue / static_cast<double>(shape.size() - 2) * time / spread;
   return {std::abs(amplitude) / std::sqrt(variance), residue};
 }
 

@@ -75,7 +75,9 @@ struct Drift {
 };
 
 /// Of a constant series, one with a value that is not finite, or fewer than 20 samples: 0, 0.
-/// Of white noise in 1.2 % of all cases beyond significant_drift.
+/// The correlation is that of what the line leaves, never below white noise's. Of white noise 1 %
+/// (400 samples) to 2 % (20, by Student's t) lie beyond significant_drift; docs/statistics.md has
+/// the shares of correlated series.
 Drift drift_of(std::span<const double> series);
 inline constexpr double significant_drift = 2.5;
 

@@ -266,6 +266,25 @@ TEST(SteadyStart, FlagsADrift) {
   }
 }
 
+TEST(Drift, OfStationarySeriesIsSeldomSignificant) {
+  for (const double rho : {0.0, 0.5, 0.8, 0.9}) {
+    std::printf("| drift of a stationary series, rho = %g |", rho);
+    for (const std::size_t n : {20, 40, 100, 400}) {
+      Random random(29);
+      int flagged = 0;
+      for (int i = 0; i < repetitions; ++i)
+        flagged += drift_of(tests::ar1(random, rho, n)).significance > significant_drift;
+      std::printf(" n = %zu: %.1f %% |", n, 100.0 * flagged / repetitions);
+      // White noise by Student's t with n - 2 degrees of freedom: 2.2 % at 20, 1.3 % at 400; the
+      // rest is three standard errors of 4,000 series.
+      if (rho == 0) {
+        EXPECT_LE(flagged, (0.022 + 3 * 0.0023) * repetitions) << n;
+      }
+    }
+    std::printf("\n");
+  }
+}
+
 TEST(SteadyStart, FlagsAJumpOfTheMeanInTheSecondHalf) {
   for (const double rho : {0.0, 0.5, 0.9}) {
     Random random(23);
