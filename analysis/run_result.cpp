@@ -391,6 +391,9 @@ RunResult RunSums::finish(const readers::Series& series, const Window& window) &
     result.bubbles = std::move(bubbles_).finish(setup, window.first, result.problems);
   bed_of(window, result);
   means_of(window, result);
+  tell_missing(series, window, result);
+  tell_losses(window, result);
+  tell_packing(window, result);
   if (window.automatic && !window.steady)
     result.problems.push_back(
         samples_.size() < 20
