@@ -325,8 +325,8 @@ void RunSums::means_of(const Window& window, RunResult& result) const {
   if (mean.few_samples)
     result.problems.push_back(
         fmt::format("mean holdup: the window holds {:.3g} independent samples, too few for its "
-                    "interval to be trusted",
-                    mean.independent_samples));
+                    "interval to be trusted ({:.3g} are enough)",
+                    mean.independent_samples, mean.enough_samples));
   if (mean.disagree)
     result.problems.emplace_back(
         "mean holdup: batch means and autocorrelation time disagree on the error");

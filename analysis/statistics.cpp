@@ -94,6 +94,7 @@ MeanEstimate estimate_mean(std::span<const double> values, std::span<const doubl
   }
   result.value = sum / total;
   result.independent_samples = static_cast<double>(n);
+  result.enough_samples = enough_independent;
   result.few_samples = n == 1;
   if (n == 1) return result;
   if (is_constant(values)) {
@@ -116,11 +117,12 @@ MeanEstimate estimate_mean(std::span<const double> values, std::span<const doubl
   result.ci95 = half_width(errors, from_batches);
 
   const double independent = static_cast<double>(n) / errors.time.value;
-  const double at_least = independent / (1 + errors.time.relative_error);
   const double skewness_squared = third * third / (second * second * second);
   result.independent_samples = std::min(independent, static_cast<double>(n));
-  result.few_samples = n < fewest_for_time || at_least < enough_independent ||
-                       at_least < enough_for_skewness * skewness_squared;
+  // One standard error of the correlation time more, as it comes from the same series.
+  result.enough_samples = std::max(enough_independent, enough_for_skewness * skewness_squared) *
+                          (1 + errors.time.relative_error);
+  result.few_samples = n < fewest_for_time || independent < result.enough_samples;
   result.disagree = n >= fewest_for_time && (from_batches > disagreement * errors.from_time ||
                                              errors.from_time > disagreement * from_batches);
   return result;

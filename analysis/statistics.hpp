@@ -15,7 +15,8 @@ struct MeanEstimate : Estimate {
   /// The mean and its interval alone.
   const Estimate& estimate() const { return *this; }
   double independent_samples = 0;  ///< n / integrated autocorrelation time, at most n
-  bool few_samples = false;        ///< too few independent ones for the interval to be trusted
+  double enough_samples = 0;       ///< independent ones from which the interval is trusted
+  bool few_samples = false;        ///< they are too few for it
   bool disagree = false;  ///< batch means and autocorrelation time give errors a factor 2.5 apart
 };
 

@@ -62,8 +62,9 @@ Sampled mean_of(const RunResult& run, const std::string& what, const Signal& sig
     sampled.notes.push_back(fmt::format("run \"{}\": {}: {}", run.label, what, words));
   };
   if (mean.few_samples && signal.values.size() > 1)
-    note(fmt::format("{:.3g} independent samples, too few for its interval to be trusted",
-                     mean.independent_samples));
+    note(fmt::format(
+        "{:.3g} independent samples, too few for its interval to be trusted ({:.3g} are enough)",
+        mean.independent_samples, mean.enough_samples));
   if (mean.disagree) note("batch means and autocorrelation time disagree on the error");
   const auto drift = analysis::drift_of(signal.values);
   if (drift.significance > analysis::significant_drift)
