@@ -378,6 +378,11 @@ fix pts1 all particletemplate/sphere 15485863 atom_type 1 density constant 2000 
 
 
 class BadInput(Command):
+    def test_a_misspelt_command_names_the_nearest(self):
+        done = self.run_it("analyze", "post")
+        self.assertEqual(done.returncode, 2)
+        self.assertEqual(done.stderr, 'bedscope: no command "analyze"; the nearest known one is "analyse"\n')
+
     def test_unknown_keys_name_the_nearest(self):
         self.post()
         for text, wrong, right in (("[scene]\ncel = [1, 1]", "cel", "cell"),
@@ -940,6 +945,9 @@ class Resume(Files):
 class FullDisk(Files):
     """A write that fails: one line, exit code 2, and the folder as it was."""
 
+    VARAS = os.path.join(os.path.dirname(os.path.abspath(__file__)),
+                         "../../cases/validation/varas_2017/study.toml")
+
     def limited(self, size, *arguments, **options):
         limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
         return self.run_it(*arguments, preexec_fn=limit, **options)
@@ -1021,9 +1029,10 @@ class FullDisk(Files):
         self.post()
         with open("/dev/full", "w") as full:
             for arguments in (("info", self.at("post")), ("info", self.at("post"), "--json"),
-                              ("analyse", self.study(), "-o", self.out, "--json")):
+                              ("analyse", self.study(), "-o", self.out, "--json"),
+                              ("validate", self.VARAS, "-o", self.out)):  # prints more than a buffer
                 done = subprocess.run([PROGRAM, *arguments], stdout=full, stderr=subprocess.PIPE, text=True)
-                self.refused(done, "standard output")
+                self.refused(done, "standard output: No space left on device")
 
 
 class Killed(Command):
