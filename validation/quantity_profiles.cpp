@@ -89,7 +89,7 @@ Sampled axial(const RunResult& run, const Place& place,
 Sampled lateral(const RunResult& run, const Place& place,
                 std::vector<Estimate> analysis::Profile::*part) {
   const auto& profiles = species_of(run, place).lateral;
-  if (profiles.empty()) return {};
+  if (profiles.empty() && place.at.contains("height")) return {};
   const auto h = height_of(run, place);
   if (h >= profiles.size()) return {};
   return along("x", "m", profiles[h].coordinate, profiles[h].*part);
