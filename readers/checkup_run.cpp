@@ -2,9 +2,7 @@
 // Rules on the run as a whole: its steps, its inventory, its log.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "readers/checkup.hpp"
 
