@@ -57,7 +57,8 @@ IndexRange window_of(const RunSetup& setup) {
   const auto window = select_window(setup.times, from, to, setup.half_step);
   if (window.count == 0)
     throw EmptyWindow(
-        "run \"{}\": average: no snapshot between {} and {} s; the dumps run from {} to {} s",
+        "run \"{}\": average: no snapshot between {} and {} s; the dumps run from {:.9g} to {:.9g} "
+        "s",
         setup.settings.label, from, to, setup.times.front(), setup.times.back());
   return window;
 }

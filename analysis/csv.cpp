@@ -111,12 +111,15 @@ CsvReader::CsvReader(const std::filesystem::path& path)
 std::optional<std::size_t> CsvReader::column(std::string_view name) const {
   const auto found = std::find(header_.begin(), header_.end(), name);
   if (found == header_.end()) return std::nullopt;
+  if (std::find(found + 1, header_.end(), name) != header_.end())
+    throw FormatError("{}: line 1: expected one column '{}', found two", path_.string(), name);
   return static_cast<std::size_t>(found - header_.begin());
 }
 
 std::size_t CsvReader::needed(std::string_view name) const {
   if (const auto found = column(name)) return *found;
-  throw FormatError("{}: line 1: expected a column '{}', found '{}'", path_.string(), name,
+  throw FormatError("{}: line 1: expected a column '{}'{}, found '{}'", path_.string(), name,
+                    header_.size() > 1 ? "" : " and others, with commas between them",
                     shown(fmt::format("{}", fmt::join(header_, ","))));
 }
 
@@ -133,7 +136,7 @@ double CsvReader::number(std::size_t column) const {
   if (field.front() == '+') field.remove_prefix(1);
   double value = not_a_number;
   const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-  if (error != std::errc() || end != field.data() + field.size())
+  if (error != std::errc() || end != field.data() + field.size() || std::isinf(value))
     fail(fmt::format("a number for '{}'", header_[column]),
          fmt::format("'{}'", shown(fields_[column])));
   return value;

@@ -56,7 +56,8 @@ class CsvReader {
 
   /// The titles of the columns, in order.
   const std::vector<std::string>& header() const { return header_; }
-  /// The place of a column in the rows; nothing where the table has none of that name.
+  /// The place of a column in the rows; nothing where the table has none of that name. Two of it
+  /// are an error.
   std::optional<std::size_t> column(std::string_view name) const;
   /// The same, but FormatError where there is none.
   std::size_t needed(std::string_view name) const;
@@ -66,7 +67,7 @@ class CsvReader {
 
   std::size_t line() const { return line_; }  ///< on which the present row begins, from 1
   std::string_view text(std::size_t column) const { return fields_[column]; }
-  /// A number; NaN for `nan` and for an empty field.
+  /// A number; NaN for `nan` and for an empty field; an infinite one is none.
   double number(std::size_t column) const;
   /// The same; NaN where there is no such column.
   double number(std::optional<std::size_t> column) const;

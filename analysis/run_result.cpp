@@ -325,8 +325,8 @@ void RunSums::means_of(const Window& window, RunResult& result) const {
   if (mean.few_samples)
     result.problems.push_back(
         fmt::format("mean holdup: the window holds {:.3g} independent samples, too few for its "
-                    "interval to be trusted",
-                    mean.independent_samples));
+                    "interval to be trusted ({:.3g} are enough)",
+                    mean.independent_samples, mean.enough_samples));
   if (mean.disagree)
     result.problems.emplace_back(
         "mean holdup: batch means and autocorrelation time disagree on the error");
@@ -391,6 +391,9 @@ RunResult RunSums::finish(const readers::Series& series, const Window& window) &
     result.bubbles = std::move(bubbles_).finish(setup, window.first, result.problems);
   bed_of(window, result);
   means_of(window, result);
+  tell_missing(series, window, result);
+  tell_losses(window, result);
+  tell_packing(window, result);
   if (window.automatic && !window.steady)
     result.problems.push_back(
         samples_.size() < 20

@@ -127,6 +127,23 @@ void set_domain(const readers::Series& series, FirstRows& first, RunSetup& setup
   }
 }
 
+/// A domain in millimetres or centimetres makes every holdup a billionth, and nothing else odd.
+void doubt_domain(const readers::Series& series, RunSetup& setup) {
+  const auto& box = series.located(0).box;
+  if (setup.domain_assumed || !box.known) return;
+  constexpr double far_wider = 30;  // half-way (of logarithms) between 1 and mm for m
+  const auto axes = bed_axes(setup.settings);
+  for (const int k : {lateral, depth}) {  // a box may follow the particles upwards
+    const auto axis = static_cast<std::size_t>(axes[static_cast<std::size_t>(k)]);
+    const double width = box.max[axis] - box.min[axis];
+    if (!(setup.grid.length(k) > far_wider * width)) continue;
+    setup.problems.push_back(fmt::format(
+        "the domain is {:.4g} m wide in {}, the box of the dumps {:.4g} m: are both in metres?",
+        setup.grid.length(k), "xyz"[axis], width));
+    return;
+  }
+}
+
 void set_cells(FirstRows& first, RunSetup& setup) {
   const auto& settings = setup.settings;
   auto& grid = setup.grid;
@@ -363,6 +380,7 @@ RunSetup set_up(const RunSettings& settings, const readers::Series& series) {
         settings.label, fmt::join(series.columns(), " "));
   FirstRows first(series);
   set_domain(series, first, setup);
+  doubt_domain(series, setup);
   set_cells(first, setup);
   set_density(series, log, setup);
   set_heights(setup);

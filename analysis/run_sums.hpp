@@ -87,6 +87,10 @@ class RunSums {
   std::vector<WeightedSum> samples_of(const Leaves& sums, const Window& window) const;
   void bed_of(const Window& window, RunResult& result) const;
   void means_of(const Window& window, RunResult& result) const;
+  // What the sums tell of wrong input, as problems: run_doubts.cpp.
+  void tell_missing(const readers::Series& series, const Window& window, RunResult& result) const;
+  void tell_losses(const Window& window, RunResult& result) const;
+  void tell_packing(const Window& window, RunResult& result) const;
 
   const RunSetup* setup_;
   bool keep_contours_;

@@ -94,6 +94,7 @@ MeanEstimate estimate_mean(std::span<const double> values, std::span<const doubl
   }
   result.value = sum / total;
   result.independent_samples = static_cast<double>(n);
+  result.enough_samples = enough_independent;
   result.few_samples = n == 1;
   if (n == 1) return result;
   if (is_constant(values)) {
@@ -116,11 +117,12 @@ MeanEstimate estimate_mean(std::span<const double> values, std::span<const doubl
   result.ci95 = half_width(errors, from_batches);
 
   const double independent = static_cast<double>(n) / errors.time.value;
-  const double at_least = independent / (1 + errors.time.relative_error);
   const double skewness_squared = third * third / (second * second * second);
   result.independent_samples = std::min(independent, static_cast<double>(n));
-  result.few_samples = n < fewest_for_time || at_least < enough_independent ||
-                       at_least < enough_for_skewness * skewness_squared;
+  // One standard error of the correlation time more, as it comes from the same series.
+  result.enough_samples = std::max(enough_independent, enough_for_skewness * skewness_squared) *
+                          (1 + errors.time.relative_error);
+  result.few_samples = n < fewest_for_time || independent < result.enough_samples;
   result.disagree = n >= fewest_for_time && (from_batches > disagreement * errors.from_time ||
                                              errors.from_time > disagreement * from_batches);
   return result;
@@ -232,8 +234,10 @@ Fit fit(std::vector<double> deviations, const std::vector<double>& shape) {
       std::inner_product(shape.begin(), shape.end(), deviations.begin(), 0.0) / spread;
   for (std::size_t i = 0; i < shape.size(); ++i) deviations[i] -= amplitude * shape[i];
   const double residue = sum_of_squares(deviations);
-  const double variance = residue / static_cast<double>(shape.size() - 2) *
-                          autocorrelation_time(deviations).value / spread;
+  // What a fit leaves swings against itself, the more so the shorter it is: a time below that of
+  // white noise would be taken from the fit, not from the series.
+  const double time = std::max(1.0, autocorrelation_time(deviations).value);
+  const double variance = residue / static_cast<double>(shape.size() - 2) * time / spread;
   return {std::abs(amplitude) / std::sqrt(variance), residue};
 }
 

@@ -15,7 +15,8 @@ struct MeanEstimate : Estimate {
   /// The mean and its interval alone.
   const Estimate& estimate() const { return *this; }
   double independent_samples = 0;  ///< n / integrated autocorrelation time, at most n
-  bool few_samples = false;        ///< too few independent ones for the interval to be trusted
+  double enough_samples = 0;       ///< independent ones from which the interval is trusted
+  bool few_samples = false;        ///< they are too few for it
   bool disagree = false;  ///< batch means and autocorrelation time give errors a factor 2.5 apart
 };
 
@@ -75,7 +76,9 @@ struct Drift {
 };
 
 /// Of a constant series, one with a value that is not finite, or fewer than 20 samples: 0, 0.
-/// Of white noise in 1.2 % of all cases beyond significant_drift.
+/// The correlation is that of what the line leaves, never below white noise's. Of white noise 1 %
+/// (400 samples) to 2 % (20, by Student's t) lie beyond significant_drift; docs/statistics.md has
+/// the shares of correlated series.
 Drift drift_of(std::span<const double> series);
 inline constexpr double significant_drift = 2.5;
 

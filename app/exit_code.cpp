@@ -9,6 +9,7 @@
 #include <exception>
 #include <filesystem>
 #include <new>
+#include <system_error>
 
 #include "app/commands.hpp"
 #include "readers/error.hpp"
@@ -20,14 +21,19 @@ namespace {
 /// file on a full disk, it may not.
 bool printed() { return std::fflush(stdout) == 0 && std::ferror(stdout) == 0; }
 
-int cannot_print() {
-  fmt::print(stderr, "bedscope: standard output: {}\n", std::strerror(errno));
+int cannot_print(int error_number) {
+  fmt::print(stderr, "bedscope: standard output: {}\n", std::strerror(error_number));
   return bad_input;
 }
 
 int say(const char* what, int exit_code) {
   fmt::print(stderr, "bedscope: {}\n", what);
   return exit_code;
+}
+
+int internal(const std::exception& error) {
+  fmt::print(stderr, "bedscope: internal error: {}\n", one_line(error.what()));
+  return internal_error;
 }
 
 }  // namespace
@@ -43,7 +49,7 @@ int exit_code_of(const std::function<int()>& program) {
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is an error like a full disk
   try {
     const int code = program();
-    return printed() ? code : cannot_print();
+    return printed() ? code : cannot_print(errno);
   } catch (const CLI::ParseError& error) {
     fmt::print(stderr, "bedscope: {} (see bedscope --help)\n", one_line(error.what()));
     return bad_input;
@@ -53,10 +59,12 @@ int exit_code_of(const std::function<int()>& program) {
     return say(one_line(error.what()).c_str(), bad_input);
   } catch (const std::bad_alloc&) {
     return say("out of memory", internal_error);
+  } catch (const std::system_error& error) {
+    // fmt tells of a print that failed; by now errno is that of what was tidied up since.
+    if (!printed()) return cannot_print(error.code().value());
+    return internal(error);
   } catch (const std::exception& error) {
-    if (!printed()) return cannot_print();
-    fmt::print(stderr, "bedscope: internal error: {}\n", one_line(error.what()));
-    return internal_error;
+    return internal(error);
   }
 }
 

@@ -1,5 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <set>
+#include <string>
+
 #include "app/commands.hpp"
+#include "readers/error.hpp"
+#include "readers/toml_table.hpp"
+
+namespace {
+
+/// CLI11 says of `bedscope analyze post/` that a subcommand is missing.
+void require_known(const CLI::App& app, const std::string& command) {
+  std::set<std::string> names;
+  for (const auto* each : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.insert(each->get_name());
+  if (!command.starts_with('-') && !names.contains(command))
+    throw bedscope::InputError("no command \"{}\"; the nearest known one is \"{}\"", command,
+                               bedscope::readers::nearest_name(command, names));
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   using namespace bedscope;
@@ -18,6 +37,7 @@ int main(int argc, char** argv) {
     app::add_curves(app);
     app::add_digitise(app);
     app::add_case(app);
+    if (argc > 1) require_known(app, argv[1]);
     try {
       app.parse(argc, argv);
     } catch (const CLI::Success& asked) {  // --help, --version

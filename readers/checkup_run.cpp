@@ -2,9 +2,7 @@
 // Rules on the run as a whole: its steps, its inventory, its log.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "readers/checkup.hpp"
 
@@ -49,32 +47,9 @@ Said irregular_steps(const Facts& facts) {
 
 // --- inventory
 
-/// The largest relative change of the number of particles from one snapshot to the next, of the
-/// sign asked for, where it stands out: beyond a fifth, five times the median of all changes and
-/// five times what chance gives.
-std::optional<std::size_t> jump(const Survey& survey, double sign) {
-  const auto& counts = survey.counts;
-  std::vector<double> changes;
-  for (std::size_t i = 1; i < counts.size(); ++i)
-    changes.push_back(static_cast<double>(counts[i] - counts[i - 1]) /
-                      static_cast<double>(std::max<std::int64_t>(counts[i - 1], 1)));
-  if (changes.size() < 3) return {};
-  auto sizes = changes;
-  for (auto& size : sizes) size = std::abs(size);
-  std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2),
-                   sizes.end());
-  const double median = sizes[sizes.size() / 2];
-  const auto most = std::max_element(changes.begin(), changes.end(),
-                                     [&](double a, double b) { return sign * a < sign * b; });
-  const auto i = static_cast<std::size_t>(most - changes.begin());
-  const double chance = 5 / std::sqrt(static_cast<double>(std::max<std::int64_t>(counts[i], 1)));
-  if (sign * *most <= std::max({0.2, 5 * median, chance})) return {};
-  return i;
-}
-
 Said particles_lost(const Facts& facts) {
   const auto& survey = facts.survey;
-  const auto i = jump(survey, -1);
+  const auto i = sudden_change(survey.counts, -1);
   if (!i) return {};
   return fmt::format("particles are lost: {} at step {}, {} at step {}", survey.counts[*i],
                      survey.steps[*i], survey.counts[*i + 1], survey.steps[*i + 1]);
@@ -82,7 +57,7 @@ Said particles_lost(const Facts& facts) {
 
 Said particles_added(const Facts& facts) {
   const auto& survey = facts.survey;
-  const auto i = jump(survey, 1);
+  const auto i = sudden_change(survey.counts, 1);
   if (!i) return {};
   return fmt::format("the number of particles jumps: {} at step {}, {} at step {}",
                      survey.counts[*i], survey.steps[*i], survey.counts[*i + 1],

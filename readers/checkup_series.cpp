@@ -108,6 +108,25 @@ bool Trend::significant() const {
   return std::abs(change) > ci99 && std::abs(change) > least_change;
 }
 
+std::optional<std::size_t> sudden_change(std::span<const std::int64_t> counts, double sign) {
+  std::vector<double> changes;
+  for (std::size_t i = 1; i < counts.size(); ++i)
+    changes.push_back(static_cast<double>(counts[i] - counts[i - 1]) /
+                      static_cast<double>(std::max<std::int64_t>(counts[i - 1], 1)));
+  if (changes.size() < 3) return {};
+  auto sizes = changes;
+  for (auto& size : sizes) size = std::abs(size);
+  std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2),
+                   sizes.end());
+  const double median = sizes[sizes.size() / 2];
+  const auto most = std::max_element(changes.begin(), changes.end(),
+                                     [&](double a, double b) { return sign * a < sign * b; });
+  const auto i = static_cast<std::size_t>(most - changes.begin());
+  const double chance = 5 / std::sqrt(static_cast<double>(std::max<std::int64_t>(counts[i], 1)));
+  if (sign * *most <= std::max({0.2, 5 * median, chance})) return {};
+  return i;
+}
+
 std::optional<Trend> trend_of(std::span<const double> x, std::span<const double> y) {
   const std::size_t n = std::min(batches, x.size());
   if (n < fewest_points) return std::nullopt;

@@ -2,6 +2,7 @@
 // What a series of steps and a short series of values show: gaps, changes of spacing, a trend.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -32,6 +33,12 @@ struct StepSpacing {
 /// Steps ascending. Three equal intervals in a row make a spacing; with fewer of them nothing but
 /// "irregular" can be told.
 StepSpacing spacing_of(std::span<const std::int64_t> steps);
+
+/// The largest relative change of the number of particles from one snapshot to the next, upwards
+/// (`sign` 1) or downwards (-1), where it stands out: beyond a fifth, five times the median of all
+/// changes and five times what chance gives. The index of the snapshot before it; fewer than four
+/// snapshots: nothing.
+std::optional<std::size_t> sudden_change(std::span<const std::int64_t> counts, double sign);
 
 /// A straight line through a series.
 struct Trend {

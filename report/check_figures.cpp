@@ -349,7 +349,8 @@ std::string_view unit_of_place(std::string_view key) {
 
 Figure check_figure(const Verdict& judged, const std::string& name) {
   const auto title = place_words(judged);
-  if (judged.outcome == validation::Outcome::skipped) return left_out(name, title, judged.reason);
+  if (judged.outcome == validation::Outcome::skipped || !judged.result.unseen.empty())
+    return left_out(name, title, judged.reason);
   const auto verdict = scaled(widened(judged));
   const bool with_errors = !verdict.comparison.points.empty();
   const auto result = estimates_of(verdict.result);

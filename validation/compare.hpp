@@ -25,6 +25,7 @@ struct Sampled {
   double duration = 0;           ///< [s] averaged over; 0: not known
   Statistic statistic = Statistic::mean;  ///< of a single value
   std::vector<std::string> notes;         ///< what is to be said of it, for people
+  std::string unseen;  ///< why there is no value, where the run looked for it; else empty
 };
 
 /// Result and reference at one abscissa.

@@ -93,8 +93,10 @@ Columns find_columns(const std::string& path, const analysis::CsvReader& rows, S
   columns.x =
       sidecar.abscissa.empty() ? plain[plain.size() - 2] : needed(path, rows, sidecar.abscissa);
   columns.y = sidecar.ordinate.empty() ? plain.back() : needed(path, rows, sidecar.ordinate);
-  need_unit(path, header[columns.x]);
-  need_unit(path, header[columns.y]);
+  for (const auto k : {columns.x, columns.y}) {
+    rows.column(header[k]);  // of that name there is one
+    need_unit(path, header[k]);
+  }
   const auto x = parse_title(header[columns.x]).name, y = parse_title(header[columns.y]).name;
   columns.u_x = uncertainty_column(path, rows, x, sidecar.u_x);
   columns.u_y = uncertainty_column(path, rows, y, sidecar.u_y);
@@ -332,11 +334,9 @@ Curve read_curve(const CurveSet& set, const std::string& selection,
   // A column without a unit is a label of the source; the numbers beside it choose.
   for (std::size_t k = 0; k < wanted.size(); ++k)
     if (left[k].size() > 1 && !set.parameters[k].title.unit.empty())
-      throw InputError(
-          "{}: several curves of {} against {}: expected a choice of {}, found {} = {}; there are "
-          "{}",
-          selection, set.y.text(), set.x.text(), set.parameters[k].title.name,
-          set.parameters[k].title.name, listed(ordered(left[k])), choices(set));
+      throw InputError("{}: several curves of {} against {}: expected a choice of {} among {}",
+                       selection, set.y.text(), set.x.text(), set.parameters[k].title.name,
+                       listed(ordered(left[k])));
   if (curve.points.empty())
     throw InputError("{}: no point is left; there are {}", selection, choices(set));
   if (curve.x.is_time() && !disorder.empty()) throw FormatError("{}", disorder);

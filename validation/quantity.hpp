@@ -28,9 +28,10 @@ std::set<std::string> place_keys(std::string_view quantity);
 /// quantity nor one of `others`.
 void require_place_keys(const Place& place, const std::set<std::string>& others = {});
 
-/// `of` gives the values of a run; a new quantity is a line of the table in quantity.cpp.
+/// `of` gives the values of a run; `from` names the column and the table that hold them, for people
+/// whose run lacks it; a new quantity is a line of the table in quantity.cpp.
 struct NamedQuantity {
-  std::string_view name, unit;
+  std::string_view name, unit, from;
   Sampled (*of)(const analysis::RunResult& run, const Place& place) = nullptr;
 };
 
@@ -43,7 +44,8 @@ bool is_series(std::string_view quantity);
 /// point that has none; 0 and `error_known` false where the run has none at all). Profiles along z
 /// or x [m], histories along time [s], distributions along their own abscissa, single values at 0.
 /// Throws InputError: no such quantity (names the nearest), no such species or height in the run
-/// (lists what there is), nothing seen.
+/// (lists what there is), no value (names the table that would hold it). A run that looked for
+/// clusters or bubbles and saw none gives `unseen`.
 Sampled sample(const analysis::RunResult& run, const Place& place);
 
 /// The same as a reference for another run.

@@ -30,7 +30,8 @@ Sampled along(const char* axis, const char* unit, const std::vector<double>& at,
 const analysis::SpeciesResult& species_of(const RunResult& run, const Place& place) {
   for (const auto& species : run.species)
     if (species.type == place.species) return species;
-  if (run.types.empty()) throw InputError("run \"{}\": it has no {}", run.label, place.quantity);
+  static const analysis::SpeciesResult none;
+  if (run.types.empty()) return none;
   throw InputError("run \"{}\": {}: no species \"{}\", there are {}", run.label, place.quantity,
                    place.species, fmt::join(run.types, ", "));
 }
@@ -88,6 +89,7 @@ Sampled axial(const RunResult& run, const Place& place,
 Sampled lateral(const RunResult& run, const Place& place,
                 std::vector<Estimate> analysis::Profile::*part) {
   const auto& profiles = species_of(run, place).lateral;
+  if (profiles.empty() && place.at.contains("height")) return {};
   const auto h = height_of(run, place);
   if (h >= profiles.size()) return {};
   return along("x", "m", profiles[h].coordinate, profiles[h].*part);

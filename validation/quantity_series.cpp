@@ -62,8 +62,9 @@ Sampled mean_of(const RunResult& run, const std::string& what, const Signal& sig
     sampled.notes.push_back(fmt::format("run \"{}\": {}: {}", run.label, what, words));
   };
   if (mean.few_samples && signal.values.size() > 1)
-    note(fmt::format("{:.3g} independent samples, too few for its interval to be trusted",
-                     mean.independent_samples));
+    note(fmt::format(
+        "{:.3g} independent samples, too few for its interval to be trusted ({:.3g} are enough)",
+        mean.independent_samples, mean.enough_samples));
   if (mean.disagree) note("batch means and autocorrelation time disagree on the error");
   const auto drift = analysis::drift_of(signal.values);
   if (drift.significance > analysis::significant_drift)
@@ -128,6 +129,30 @@ Estimate cluster_mean(const RunResult& run, double analysis::Cluster::*property)
   return analysis::estimate_ratio(numerator, denominator, weights);
 }
 
+/// The mean of what there may be none of, which a run that looked for it is not blamed for.
+Sampled seen(Sampled sampled, const char* what, std::size_t snapshots, bool looked_and_saw_none) {
+  if (looked_and_saw_none)
+    sampled.unseen = fmt::format("no {} in the {} snapshot{} of the window", what, snapshots,
+                                 snapshots == 1 ? "" : "s");
+  return sampled;
+}
+
+Sampled of_clusters(const RunResult& run, Sampled sampled) {
+  std::size_t snapshots = 0;
+  double clusters = 0;
+  for (const auto& sample : run.occurrence) {
+    if (!in_window(run, sample.time)) continue;
+    snapshots += 1;
+    clusters += static_cast<double>(sample.clusters);
+  }
+  return seen(std::move(sampled), "cluster", snapshots, snapshots > 0 && clusters == 0);
+}
+
+Sampled of_bubbles(const RunResult& run, const Estimate& estimate) {
+  return seen(single(estimate), "bubble", run.window.snapshots,
+              run.bubbles && run.bubbles->number.value == 0);
+}
+
 /// Of each bubble once in each snapshot; the interval takes the snapshots as samples.
 template <class Property>
 Estimate bubble_mean(const analysis::Bubbles& bubbles, Property property) {
@@ -188,10 +213,10 @@ Sampled occurrence(const RunResult& run, const Place& place) {
                      &analysis::OccurrenceSample::clusters);
 }
 Sampled cluster_holdup(const RunResult& run, const Place&) {
-  return single(cluster_mean(run, &analysis::Cluster::holdup));
+  return of_clusters(run, single(cluster_mean(run, &analysis::Cluster::holdup)));
 }
 Sampled cluster_velocity(const RunResult& run, const Place&) {
-  return single(cluster_mean(run, &analysis::Cluster::velocity_z));
+  return of_clusters(run, single(cluster_mean(run, &analysis::Cluster::velocity_z)));
 }
 Sampled mean_holdup(const RunResult& run, const Place& place) {
   return species_mean(run, place, run.mean_holdup, run.inventory,
@@ -223,13 +248,14 @@ Sampled bubble_number(const RunResult& run, const Place&) {
 Sampled bubble_diameter(const RunResult& run, const Place&) {
   if (!run.bubbles || std::isfinite(run.bubbles->diameter.value))
     return single(run.bubbles ? run.bubbles->diameter : Estimate{});
-  return single(bubble_mean(*run.bubbles, analysis::equivalent_diameter));
+  return of_bubbles(run, bubble_mean(*run.bubbles, analysis::equivalent_diameter));
 }
 Sampled bubble_velocity(const RunResult& run, const Place&) {
   if (!run.bubbles || std::isfinite(run.bubbles->velocity.value))
     return single(run.bubbles ? run.bubbles->velocity : Estimate{});
-  return single(
-      bubble_mean(*run.bubbles, [](const analysis::Cluster& b) { return b.track_velocity_z; }));
+  return of_bubbles(run, bubble_mean(*run.bubbles, [](const analysis::Cluster& b) {
+                      return b.track_velocity_z;
+                    }));
 }
 
 Sampled bed_height_deviation(const RunResult& run, const Place&) {
@@ -300,7 +326,7 @@ Sampled cluster_position(const RunResult& run, const Place&) {
     all[sample_of[cluster.snapshot]] += 1;
   }
   const double total = std::accumulate(all.begin(), all.end(), 0.);
-  if (total == 0) return sampled;
+  if (total == 0) return of_clusters(run, std::move(sampled));
   const std::vector<double> weights(samples, 1);
   for (int k = 0; k < distribution_bins; ++k) {
     const double count = std::accumulate(counts[k].begin(), counts[k].end(), 0.);

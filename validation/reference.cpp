@@ -42,7 +42,7 @@ std::pair<Kind, std::string> source_of(const Check& check) {
 }
 
 Curve constant(const Check& check, const Sampled& result) {
-  Curve curve{.name = fmt::format("{:.6g}", *check.number), .x = result.x, .y = result.y};
+  Curve curve{.name = number_name(*check.number), .x = result.x, .y = result.y};
   for (const double x : result.at) curve.points.push_back({x, *check.number, 0, check.number_u});
   if (check.number_u == 0)
     curve.assumptions.emplace_back(
@@ -163,6 +163,8 @@ Curve reduced(Curve curve, const Sampled& result) {
 }
 
 }  // namespace
+
+std::string number_name(double number) { return fmt::format("{:.6g}", number); }
 
 Curve reference_of(const Check& check, const RunResult& run, const Sampled& result,
                    std::span<const RunResult> runs, const Curves& curves,

@@ -15,6 +15,9 @@ namespace bedscope::validation {
 const analysis::RunResult& run_of(std::span<const analysis::RunResult> runs,
                                   const std::string& label);
 
+/// What a number in the study is called as a reference.
+std::string number_name(double number);
+
 /// The reference of a check on a run: a number, a curve, a theory, other runs, an earlier result.
 /// A curve along time is reduced to its mean (its deviation, its dominant frequency) where the
 /// result is one; any other curve of several points against a single value is an error.

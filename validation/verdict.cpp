@@ -223,7 +223,7 @@ void decide_nothing_by_one_of_many(const RunResult& run, Verdict& verdict) {
       standing(verdict) +
       fmt::format(
           "; the window holds 1 of {} snapshots, which is no average and has no error: "
-          "expected a longer one, or at = {{ time = {} }} where this instant is meant",
+          "expected a longer one, or at = {{ time = {:.9g} }} where this instant is meant",
           all, run.window.from);
 }
 
@@ -246,6 +246,12 @@ Verdict judged_on(const Check& check, const RunResult& run, std::span<const RunR
   verdict.result = sample(run, check.place);
   verdict.notes = verdict.result.notes;
   say_what_an_instant_is(run, verdict);
+  if (!verdict.result.unseen.empty()) {
+    verdict.metric.value = verdict.metric.lo = verdict.metric.hi = std::nan("");
+    verdict.outcome = Outcome::undecided;
+    verdict.reason = verdict.result.unseen;
+    return verdict;
+  }
   if (!verdict.result.error_known)
     verdict.assumptions.push_back(without_intervals(run, verdict.result));
   if (const auto* shape = find_shape(check.metric)) {
@@ -272,7 +278,8 @@ Verdict judged_on(const Check& check, const RunResult& run, std::span<const RunR
 Verdict evaluate_on(const Check& check, const RunResult& run, std::span<const RunResult> runs,
                     const Curves& curves, const std::string& study) {
   auto verdict = judged_on(check, run, runs, curves, study);
-  if (verdict.outcome != Outcome::skipped) decide_nothing_by_one_of_many(run, verdict);
+  if (verdict.outcome != Outcome::skipped && verdict.result.unseen.empty())
+    decide_nothing_by_one_of_many(run, verdict);
   return verdict;
 }
 
@@ -303,7 +310,9 @@ int digits_of(const Verdict& verdict) {
 }
 
 std::string reference_name(const Verdict& verdict) {
-  return verdict.reference.name.empty() ? verdict.check.against : verdict.reference.name;
+  const auto& check = verdict.check;
+  if (!verdict.reference.name.empty()) return verdict.reference.name;
+  return check.number ? number_name(*check.number) : check.against;
 }
 
 bool same_comparison(const Verdict& a, const Verdict& b) {

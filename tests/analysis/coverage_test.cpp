@@ -266,6 +266,51 @@ TEST(SteadyStart, FlagsADrift) {
   }
 }
 
+TEST(SteadyStart, AWindowThatItChoseHoldsTheMeanOrIsWarnedOf) {
+  constexpr std::size_t block = 16;  // snapshots, to which `auto` rounds up its start
+  for (const double rho : {0.0, 0.5, 0.8, 0.9, 0.95, 0.98, 0.99}) {
+    Random random(31);
+    int held = 0, warned = 0, silent = 0;
+    for (int i = 0; i < repetitions; ++i) {
+      const Series series = ar1(random, rho);
+      const auto found = steady_start(series);
+      const auto first = static_cast<std::ptrdiff_t>((found.start + block - 1) / block * block);
+      const Series kept(series.begin() + first, series.end());
+      const auto mean = estimate_mean(kept, Series(kept.size(), 1));
+      const bool holds = std::abs(mean.value) <= mean.ci95;
+      const bool doubtful = !found.steady || mean.few_samples || mean.disagree ||
+                            drift_of(kept).significance > significant_drift;
+      held += holds;
+      warned += doubtful;
+      silent += !holds && !doubtful;
+    }
+    std::printf("| auto, rho = %.2f | held %.1f %% | warned %.1f %% | missed, unwarned %.1f %% |\n",
+                rho, 100.0 * held / repetitions, 100.0 * warned / repetitions,
+                100.0 * silent / repetitions);
+    // What 95 % intervals may miss, and three standard errors of 4,000 series.
+    EXPECT_LE(silent, 0.06 * repetitions) << rho;
+  }
+}
+
+TEST(Drift, OfStationarySeriesIsSeldomSignificant) {
+  for (const double rho : {0.0, 0.5, 0.8, 0.9}) {
+    std::printf("| drift of a stationary series, rho = %g |", rho);
+    for (const std::size_t n : {20, 40, 100, 400}) {
+      Random random(29);
+      int flagged = 0;
+      for (int i = 0; i < repetitions; ++i)
+        flagged += drift_of(tests::ar1(random, rho, n)).significance > significant_drift;
+      std::printf(" n = %zu: %.1f %% |", n, 100.0 * flagged / repetitions);
+      // White noise by Student's t with n - 2 degrees of freedom: 2.2 % at 20, 1.3 % at 400; the
+      // rest is three standard errors of 4,000 series.
+      if (rho == 0) {
+        EXPECT_LE(flagged, (0.022 + 3 * 0.0023) * repetitions) << n;
+      }
+    }
+    std::printf("\n");
+  }
+}
+
 TEST(SteadyStart, FlagsAJumpOfTheMeanInTheSecondHalf) {
   for (const double rho : {0.0, 0.5, 0.9}) {
     Random random(23);

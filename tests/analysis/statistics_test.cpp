@@ -365,6 +365,21 @@ TEST(SteadyStart, DoesNotDependOnUnitAndOrigin) {
   }
 }
 
+TEST(EstimateMean, SaysHowManySamplesWouldBeEnough) {
+  // One 1 among 99 zeros: skewness squared (1 - 2 p)^2 / (p (1 - p)) = 97, and 12 times that.
+  std::vector<double> burst(100, 0.0);
+  burst[50] = 1;
+  const auto rare = estimate_mean(burst, std::vector<double>(100, 1.0));
+  EXPECT_TRUE(rare.few_samples);
+  EXPECT_GT(rare.enough_samples, 12 * 97.0);
+  std::vector<double> regular(100);
+  for (std::size_t i = 0; i < regular.size(); ++i) regular[i] = i % 2 == 0 ? 1 : -1;
+  const auto plain = estimate_mean(regular, std::vector<double>(100, 1.0));
+  EXPECT_FALSE(plain.few_samples);
+  EXPECT_GT(plain.enough_samples, 10);
+  EXPECT_LT(plain.enough_samples, 20);
+}
+
 TEST(SteadyStart, IsNotSaidOfTooFewOrUndefinedSamples) {
   EXPECT_FALSE(steady_start(correlated(19, 0)).steady);
   EXPECT_FALSE(steady_start({}).steady);

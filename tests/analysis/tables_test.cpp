@@ -287,7 +287,7 @@ TEST(ReadTables, SayWhatIsWrongAndWhere) {
   expect("axial_profile.csv", "z [m],holdup [-],holdup_ci95 [-]\n1,2,-0.1\n",
          "line 2: expected a half-width of at least 0 for 'holdup_ci95 [-]', or nan, found -0.1");
   expect("axial_profile.csv", "z [m],holdup [-],holdup_ci95 [-]\n1,2,inf\n",
-         "line 2: expected a half-width of at least 0 for 'holdup_ci95 [-]', or nan, found inf");
+         "line 2: expected a number for 'holdup_ci95 [-]', found 'inf'");
   expect("axial_profile.csv", "", "line 1: expected a line of column names, found none");
   expect("axial_profile.csv", "note,z [m],holdup [-]\n\"two\nlines\",1,2\nx,2,0.1m\n",
          "line 4: expected a number for 'holdup [-]', found '0.1m'");

@@ -235,6 +235,42 @@ class Window(Command):
         self.assertGreater(run["snapshots"], 0)
 
 
+class Doubts(Command):
+    """What looks plausible in every table and is wrong is said in `problems`."""
+
+    def said(self, *words, **keys):
+        self.analyse(self.study(**keys))
+        return [p for p in self.summary()[0]["problems"] if all(word in p for word in words)]
+
+    def test_nothing_of_a_good_run(self):
+        self.post(range(0, 2400, 100))
+        for word in ("missing", "lost", "packing", "metres"):
+            self.assertEqual(self.said(word), [])
+
+    def test_missing_snapshots(self):
+        self.post([step for step in range(0, 2400, 100) if step not in (500, 600, 1400)])
+        self.assertEqual(len(self.said("3 snapshots are missing", "400", "1500", "2 gaps")), 1)
+        self.assertEqual(self.said("missing", average={"to": 0.004}), [])  # the window has none
+
+    def test_particles_lost(self):
+        dumps = self.post(range(0, 2400, 100), count=200)
+        dumps.write(1200, dumps.particles(90))
+        self.assertEqual(len(self.said("particles are lost: 200 at 0.011 s, 90 at 0.012 s")), 1)
+        dumps.write(1200, dumps.particles(0))
+        self.assertEqual(len(self.said("particles are lost: 200 at 0.011 s, 0 at 0.012 s")), 1)
+
+    def test_denser_than_any_packing(self):
+        self.post(range(0, 2400, 100), count=200, radii=[0.003])  # 200 spheres: 0.18 of the domain
+        self.assertEqual(self.said("densest packing"), [])
+        self.post(range(0, 2400, 100), count=200, radii=[0.006])  # 1.4 of it
+        self.assertEqual(len(self.said("densest packing")), 1)
+
+    def test_a_domain_in_millimetres(self):
+        self.post()
+        domain = {"min": [0, 0, 0], "max": [70, 6, 300]}
+        self.assertEqual(len(self.said("70 m wide in x", "metres", domain=domain, cell=[2.5, 2.5])), 1)
+
+
 class Repeated(Command):
     def setUp(self):
         super().setUp()
@@ -342,6 +378,11 @@ fix pts1 all particletemplate/sphere 15485863 atom_type 1 density constant 2000 
 
 
 class BadInput(Command):
+    def test_a_misspelt_command_names_the_nearest(self):
+        done = self.run_it("analyze", "post")
+        self.assertEqual(done.returncode, 2)
+        self.assertEqual(done.stderr, 'bedscope: no command "analyze"; the nearest known one is "analyse"\n')
+
     def test_unknown_keys_name_the_nearest(self):
         self.post()
         for text, wrong, right in (("[scene]\ncel = [1, 1]", "cel", "cell"),
@@ -904,6 +945,9 @@ class Resume(Files):
 class FullDisk(Files):
     """A write that fails: one line, exit code 2, and the folder as it was."""
 
+    VARAS = os.path.join(os.path.dirname(os.path.abspath(__file__)),
+                         "../../cases/validation/varas_2017/study.toml")
+
     def limited(self, size, *arguments, **options):
         limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
         return self.run_it(*arguments, preexec_fn=limit, **options)
@@ -985,9 +1029,10 @@ class FullDisk(Files):
         self.post()
         with open("/dev/full", "w") as full:
             for arguments in (("info", self.at("post")), ("info", self.at("post"), "--json"),
-                              ("analyse", self.study(), "-o", self.out, "--json")):
+                              ("analyse", self.study(), "-o", self.out, "--json"),
+                              ("validate", self.VARAS, "-o", self.out)):  # prints more than a buffer
                 done = subprocess.run([PROGRAM, *arguments], stdout=full, stderr=subprocess.PIPE, text=True)
-                self.refused(done, "standard output")
+                self.refused(done, "standard output: No space left on device")
 
 
 class Killed(Command):

@@ -184,7 +184,7 @@ class Validate(unittest.TestCase):
             file.write("z [m],holdup [-],holdup_std [-]\n" + "".join(f"{k / 50},0.1,0.01\n" for k in range(50)))
         told = self.validate(study).stderr
         self.assertIn("several curves of holdup_std [-] against holdup [-]", told)
-        self.assertIn("z = 0.0, 0.02 ... 0.98 (50 values)", told)
+        self.assertIn("a choice of z among 0.0, 0.02 ... 0.98 (50 values)", told)
 
     def test_nothing_is_compared_in_a_gap_of_the_result(self):
         study = self.study(['quantity = "axial holdup"\nagainst = "r.csv"\nmetric = "max error"\nlimit = 1'])
@@ -295,7 +295,7 @@ class Validate(unittest.TestCase):
                              ({"against": '"theory:bed weigth"'}, "nearest known one is"),
                              ({"against": '"run:b"'}, 'no run "b"'),
                              ({"quantity": '"mean temperature"', "against": "300"}, "no mean temperature"),
-                             ({"quantity": '"lateral holdup"', "at": "{ height = 0.3 }"}, "no profile at 0.3 m"),
+                             ({"quantity": '"lateral holdup"', "at": "{ height = 0.3 }"}, "it has no lateral holdup"),
                              ({"metric": '"area"'}, "no distribution"),
                              ({"metric": '"decreasing"'}, "needs none"),
                              ({"limits": "2"}, "unknown key"),
@@ -366,6 +366,51 @@ class Validate(unittest.TestCase):
             self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
             self.assertIn(text, done.stderr)
             self.assertFalse(os.path.exists(self.folder + "/out"))
+
+    def test_a_table_that_lacks_what_a_check_needs_is_named(self):
+        check = 'quantity = "{}"\nagainst = 0.1\nmetric = "relative bias"\nlimit = 1'
+        for name, quantity, text in (("axial_profile", "axial holdup", "holdup [-]"),
+                                     ("inventory", "inventory", "solids_mass [kg]")):
+            rows = {"axial_profile": "z [m],hold [-]\n0,1\n1,1\n", "inventory": "time [s],particles\n0,1\n1,1\n"}
+            study = self.study([check.format(quantity)])
+            self.tables(**{name: rows[name]})
+            done = self.validate(study)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(f"it has no {quantity} ({text} of {name}.csv)", done.stderr)
+
+    def test_columns_are_there_once_and_numbers_are_finite(self):
+        check = 'quantity = "axial holdup"\nagainst = "own.csv"\nmetric = "relative bias"\nlimit = 1'
+        good = "z [m],holdup [-]\n0,1\n1,1\n"
+        for table, own, text in (("z [m];holdup [-]\n0;1\n", good, "with commas between them"),
+                                 ("z [m],holdup [-],holdup [-]\n0,1,2\n", good, "one column 'holdup [-]'"),
+                                 ("z [m],holdup [-]\n0,1\n1,-inf\n", good, "expected a number for 'holdup [-]'"),
+                                 (good, "z [m],holdup [-],holdup [-]\n0,1,2\n1,1,2\n", "one column 'holdup [-]'")):
+            study = self.study([check])
+            self.tables(axial_profile=table)
+            with open(self.folder + "/own.csv", "w") as file:
+                file.write(own)
+            done = self.validate(study)
+            self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
+            self.assertIn(text, done.stderr)
+
+    def test_a_run_without_clusters_is_undecided_and_hides_no_other_check(self):
+        cluster = 'quantity = "cluster {}"\nagainst = {}\nmetric = "{}"\nlimit = 1'
+        checks = [cluster.format("holdup", 0.3, "relative bias"), cluster.format("velocity", 1, "max error"),
+                  'quantity = "cluster position"\nshape = "near walls"',
+                  'quantity = "mean holdup"\nagainst = 0.02\nmetric = "relative bias"\nlimit = 1']
+        study = self.study(checks)
+        self.tables(clusters="time [s],cluster,x [m],z [m],holdup [-],velocity_z [m/s]\n",
+                    cluster_occurrence="time [s],clusters\n" + "".join(f"{k},0\n" for k in range(12)),
+                    inventory="time [s],particles,holdup [-]\n" + "".join(f"{k},9,0.02\n" for k in range(12)))
+        done = self.validate(study)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertEqual(done.stdout.count("no cluster in the 12 snapshots of the window"), 3, done.stdout)
+        self.assertIn("cluster holdup: relative bias against 0.3: no cluster", done.stdout)
+        self.assertEqual(done.stdout.count("\nholds"), 1, done.stdout)
+        with open(self.folder + "/out/summary.json") as file:
+            self.assertIsNone(json.load(file)["checks"][0]["value"])
+        os.remove(self.folder + "/a/tables/cluster_occurrence.csv")  # then nobody looked
+        self.assertIn("it has no cluster holdup (holdup [-] of clusters.csv)", self.validate(study).stderr)
 
     def test_what_has_no_area_no_shape_or_no_time_is_one_line(self):
         pdf = "bin_centre [-],probability_density [-],probability_density_ci95 [-]\n0.25,{},0.1\n0.75,0.5,{}\n"

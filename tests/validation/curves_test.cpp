@@ -81,7 +81,8 @@ TEST(Selection, ThePlaceOfACheckChoosesWhatTheNameDoesNot) {
 TEST(Selection, WhatLeavesAChoiceOrNothingIsOneLine) {
   const auto curves = open(shipped);
   const auto wrong = [&](const char* name) { return error_of([&] { curves.curve(name); }); };
-  EXPECT_NE(wrong("varas_2017/axial_holdup").find("U = 5.55, 5.95, 6.35, 6.74"), std::string::npos);
+  EXPECT_NE(wrong("varas_2017/axial_holdup").find("U among 5.55, 5.95, 6.35, 6.74"),
+            std::string::npos);
   EXPECT_NE(wrong("varas_2017/axial_holdup?U=7").find("no point has U = 7"), std::string::npos);
   EXPECT_NE(wrong("varas_2017/axial_holdup?V=7").find("U"), std::string::npos);
   EXPECT_NE(
