@@ -15,9 +15,9 @@ constexpr std::string_view kind = "bedscope state of a run, version 2\n";
 /// The names make the compiler ask about each setting that is added.
 template <class Archive>
 void archive_settings(Archive& ar, RunSettings& settings) {
-  auto& [label, particles, repeated, every, wanted, columns, time_step, time_required, step_zero,
+  auto& [label, particles, every, repeated, wanted, columns, time_step, time_required, step_zero,
          domain, up_axis, lateral_axis, cell, cells, periodic, density, radius, species, average,
-         mapping, gaussian_width, heights, band, clusters, bubbles, bed, height_at_rest, spectra,
+         mapping, gaussian_width, heights, band, clusters, bubbles, bed, spectra, height_at_rest,
          segment, probes, temperature_column, temperature, temperature_bins, gas] = settings;
   // Not those that only decide which dumps, their times or their weights: these are compared
   // themselves. Not the label, nor what is made of the sums or beside them: spectra and gas.

@@ -86,9 +86,9 @@ void archive(Archive& ar, WantedProducts& wanted) {
 /// Axes are numbered 0 x, 1 y, 2 z here; vectors of the domain are in that order too.
 struct RunSettings {
   std::string label;
-  std::string particles;  ///< file, folder or pattern
-  readers::Repeated repeated = readers::Repeated::refuse;
+  std::string particles;   ///< file, folder or pattern
   std::int64_t every = 1;  ///< only every n-th snapshot of the series is read
+  readers::Repeated repeated = readers::Repeated::refuse;
   WantedProducts wanted;
   std::vector<std::string> columns;  ///< their names, for dumps that store none
   std::optional<double> time_step;   ///< [s]; else from log.liggghts beside the dumps
@@ -113,10 +113,10 @@ struct RunSettings {
   ClusterThresholds clusters;
   std::optional<ClusterThresholds> bubbles;  ///< of the voidage; min_area 0: four cells
   bool bed = false;                          ///< asked for: [bed] or [bubbles]
-  std::optional<double> height_at_rest;      ///< [m] above the floor; else the first snapshot's
   bool spectra = false;
-  std::optional<double> segment;  ///< of a spectrum [s]
-  std::string probes;             ///< pressure probes of OpenFOAM: a folder or a file
+  std::optional<double> height_at_rest;  ///< [m] above the floor; else the first snapshot's
+  std::optional<double> segment;         ///< of a spectrum [s]
+  std::string probes;                    ///< pressure probes of OpenFOAM: a folder or a file
   std::string temperature_column = "temperature";
   std::optional<std::array<double, 2>> temperature;  ///< made 0 and 1 in the PDF [K]
   int temperature_bins = 25;

@@ -98,7 +98,8 @@ void show(const Curves& curves, const CurveSet& set) {
       line("choose",
            fmt::format("{} = {}", parameter.title.text(), fmt::join(parameter.values, ", ")));
   show_example(curves, set);
-  for (const auto& [key, value] : about.conditions) line("condition", key + ": " + value);
+  for (const auto& [key, value] : about.conditions)
+    line("condition", fmt::format("{}: {}", key, value));
   for (const auto& caveat : about.caveats) line("caveat", caveat);
   for (const auto& check : about.checks) line("checked", check);
   line("file", set.path);

@@ -137,9 +137,7 @@ class HeaderReader {
   void number_columns() {
     header_.named = false;
     if (header_.particles == 0) return;
-    const void* end = nullptr;
-    while ((end = std::memchr(window_.begin(), '\n', window_.size())) == nullptr &&
-           window_.more()) {
+    while (std::memchr(window_.begin(), '\n', window_.size()) == nullptr && window_.more()) {
     }
     std::string_view row(window_.begin(), window_.size());
     row = row.substr(0, row.find('\n'));

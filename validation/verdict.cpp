@@ -286,7 +286,7 @@ Verdict evaluate_on(const Check& check, const RunResult& run, std::span<const Ru
 }  // namespace
 
 std::string in_digits(double value, int digits) {
-  const auto text = fmt::format("{:.{}g}", value, digits);
+  std::string text = fmt::format("{:.{}g}", value, digits);
   if (text.find("e+") == text.npos || !(std::abs(value) < 1e6)) return text;
   const double unit = std::pow(10, std::floor(std::log10(std::abs(value))) + 1 - digits);
   return fmt::format("{:.0f}", std::round(value / unit) * unit);

@@ -348,6 +348,8 @@ TEST_F(Resume, OtherSettingsBeginAnew) {
       },
       [&] { settings.heights = {0.1}; },
       [&] { settings.band = 0.02; },
+      [&] { settings.height_at_rest = 0.1; },
+      [&] { settings.bed = true; },
       [&] { settings.clusters.core = 0.2; },
       [&] { settings.mapping = "centre"; },
       [&] { settings.species[0].value = 340; },

@@ -557,19 +557,27 @@ class BadInput(Command):
         first, second = read(self.dump(0)), read(self.dump(100))
         header = second.index(b"ITEM: ATOMS") + 140
         places = [*range(1, header), *range(header, len(second) - 2, 17), len(second) - 3]
-        study = self.study()
+        cuts = [(one_file, place) for one_file in (False, True) for place in places]
         wrong = []
-        for one_file in (False, True):
-            if one_file:
-                os.remove(self.dump(100))
-            for place in places:
+        for begin in range(0, len(cuts), 64):  # runs of a study, as starting the program takes longer than a cut
+            batch, runs = cuts[begin : begin + 64], []
+            for one_file, place in batch:
+                name = f"{'one' if one_file else 'two'}{place}"
+                os.mkdir(self.at(name))
                 cut = second[:place]
-                write(self.dump(0 if one_file else 100), first + cut if one_file else cut)
-                done = self.run_it("analyse", study, "-o", self.out, "--tables-only", "--quiet", "--threads", "1")
-                said = self.summary() if done.returncode == 0 else None
-                if said is None or said[0]["snapshots"] != 1 or not said[0]["problems"]:
-                    wrong.append((one_file, place, cut[-12:], done.stderr.strip()[-60:]))
-        self.assertEqual(wrong[:5], [], f"{len(wrong)} places of {2 * len(places)}")
+                write(self.at(name, "dump0.liggghts_run"), first + cut if one_file else first)
+                if not one_file:
+                    write(self.at(name, "dump100.liggghts_run"), cut)
+                runs.append(RUN | {"label": name, "particles": f"{name}/dump*.liggghts_run"})
+            done = self.run_it("analyse", write_study(self.folder, scene(), runs, profiles=PROFILES), "-o", self.out,
+                               "--tables-only", "--quiet", "--threads", "1")
+            if done.returncode != 0:  # the line names the place
+                wrong.append((batch[0], batch[-1], done.stderr.strip()[-60:]))
+                continue
+            for (one_file, place), said in zip(batch, self.summary(), strict=True):
+                if said["snapshots"] != 1 or not said["problems"]:
+                    wrong.append((one_file, place, second[:place][-12:]))
+        self.assertEqual(wrong[:5], [], f"{len(wrong)} of {len(cuts)} cuts")
 
     def test_nothing_but_a_truncated_snapshot(self):
         self.post([0])

@@ -68,19 +68,24 @@ def read_run(pattern):
 
 
 # ---------------------------------------------------------------------------------------- mapping
-def quadrant(a, b, s):
-    """Area of {x <= a, y <= b} in the disc of radius s at the origin."""
+def rectangle(y, z, s):
+    """Area of {y[0] <= y <= y[1], z[0] <= z <= z[1]} in the disc of radius s at the origin."""
 
-    def under(x):  # integral of sqrt(s^2 - x^2) from 0 to x
+    def under(x):  # integral of sqrt(s^2 - x^2) from 0 to x: odd, and pi s^2 / 4 at x = s
         return 0.5 * (x * np.sqrt(np.maximum(s * s - x * x, 0)) + s * s * np.arcsin(x / s))
 
-    a = np.clip(a, -s, s)
-    b = np.clip(b, -s, s)
-    left = 2 * (under(a) - under(-s))
-    half = np.sqrt(s * s - b * b)  # half the chord at y = b
-    inner = np.clip(a, -half, half)
-    cap = under(inner) - under(-half) - np.abs(b) * (inner + half)
-    return np.where(b >= 0, left - cap, cap)
+    area = 0
+    y = [np.clip(a, -s, s) for a in y]
+    left = [2 * under(a) + math.pi / 2 * s * s for a in y]  # of {y <= a}
+    for sign, b in zip((-1, 1), z):
+        b = np.clip(b, -s, s)
+        half = np.sqrt(s * s - b * b)  # half the chord at z = b
+        whole = under(half)
+        for side, a, below in zip((-1, 1), y, left):
+            inner = np.clip(a, -half, half)
+            cap = under(inner) + whole - np.abs(b) * (inner + half)
+            area = area + sign * side * np.where(b >= 0, below - cap, cap)  # of {y <= a, z <= b}
+    return area
 
 
 GAUSS = np.polynomial.legendre.leggauss(48)
@@ -92,6 +97,15 @@ def overlap(radius, low, high):
     radius (n,), low and high (n, 3). The x range is split where the disc's edge passes an edge or a
     corner of the rectangle; the substitution 3u^2 - 2u^3 softens the square roots there.
     """
+    whole = ((low <= -radius[:, None]) & (high >= radius[:, None])).all(axis=1)
+    volume = np.where(whole, 4 / 3 * math.pi * radius**3, 0)
+    nearest = np.maximum(np.maximum(low, -high), 0)
+    cut = ~whole & ((nearest**2).sum(axis=1) < radius**2)
+    volume[cut] = cut_overlap(radius[cut], low[cut], high[cut])
+    return volume
+
+
+def cut_overlap(radius, low, high):
     a = np.maximum(low[:, 0], -radius)
     b = np.minimum(high[:, 0], radius)
     distances = [low[:, 1], high[:, 1], low[:, 2], high[:, 2]]
@@ -113,12 +127,11 @@ def overlap(radius, low, high):
         use = (width > 0) & (b > a)
         if not use.any():
             continue
+        start, width, square = left[use], width[use], radius[use] ** 2
+        y, z = (low[use, 1], high[use, 1]), (low[use, 2], high[use, 2])
         for p, w in zip(place, weight):
-            x = left[use] + p * width[use]
-            s = np.sqrt(np.maximum(radius[use] ** 2 - x * x, 1e-300))
-            y0, y1, z0, z1 = low[use, 1], high[use, 1], low[use, 2], high[use, 2]
-            area = quadrant(y1, z1, s) - quadrant(y0, z1, s) - quadrant(y1, z0, s)
-            volume[use] += w * width[use] * (area + quadrant(y0, z0, s))
+            x = start + p * width
+            volume[use] += w * width * rectangle(y, z, np.sqrt(np.maximum(square - x * x, 1e-300)))
     return np.where(b > a, volume, 0)
 
 

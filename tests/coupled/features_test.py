@@ -199,7 +199,7 @@ class Scenes(unittest.TestCase):
         return case
 
     def test_feed_enters_from_the_side_at_its_mass_flow(self):
-        case = self.made("riser/feed_side.toml", 0.01)
+        case = self.made("riser/feed_side.toml", 0.003)
         case.run()
         inventory, last = case.record()["inventory"], case.history()[-1]
         sphere = RHO * math.pi / 6 * D**3

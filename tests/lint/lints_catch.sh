@@ -44,6 +44,14 @@ catches rooms 'validation/digitise must not include analysis/grid.hpp' \
 passes rooms report/a.cpp '#include <vector>\n#include "readers/error.hpp"\n#include "analysis/grid.hpp"\n'
 passes rooms app/a.cpp '#include "cases/scene.hpp"\n'
 
+printf "$spdx" > "$tree/readers/own.hpp"
+catches own_header_first 'readers/own.cpp: includes something before readers/own.hpp' \
+  readers/own.cpp "$spdx"'#include <vector>\n#include "readers/own.hpp"\n'
+fails own_header_first 'readers/own.cpp: includes' readers/own.cpp "$spdx"'int x;\n'
+passes own_header_first readers/own.cpp "$spdx"'#include "readers/own.hpp"\n#include <vector>\n'
+passes own_header_first readers/other.cpp "$spdx"'#include <vector>\n'
+rm "$tree/readers/own.hpp"
+
 catches licences './analysis/bare.cpp: no SPDX line' analysis/bare.cpp 'int x;\n'
 catches licences 'scripts/run: no SPDX line' scripts/run '#!/bin/sh\n'
 
