@@ -76,6 +76,35 @@ TEST(BesideLine, WhatTheLineCoversStaysWhereItWas) {
   EXPECT_EQ(again[0][0].at, at);
 }
 
+TEST(Stretches, LieAsWellFartherAlongWhereOtherCurvesHideTheirSides) {
+  const Shape disc{Outline::circle, Fill::filled};
+  auto made = scene(disc, 13, 1, 6, {});
+  cv::Mat sides = drawn_stroke({150, 132.3}, {250, 112.3}, 26, plot) > 0.5F;
+  sides.setTo(0, drawn_stroke({150, 132.3}, {250, 112.3}, 5, plot) > 0.5F);
+  made.map.unknown.setTo(255, sides);
+  std::vector<std::vector<Marker>> found{{placed(made, {200.2, 122.3})}};
+  ASSERT_TRUE(is_marker(found[0][0].fit));
+  drop_stretches(made.map, 6, {made.marker}, found);
+  EXPECT_TRUE(found[0].empty());
+}
+
+TEST(Stretches, EndsOfDashesAreNoPaleCrosses) {
+  const Shape x{Outline::x, Fill::any};
+  InkMap map{drawn_stroke({180, 120.3}, {203, 117.8}, 5, plot), cv::Mat::zeros(plot, CV_8U)};
+  cv::GaussianBlur(map.coverage, map.coverage, {}, 0.8);
+  cv::Mat ink = draw_shape(x, {10, 10}, 3.5, {16, 16}) * 0.75;
+  cv::GaussianBlur(ink, ink, {}, 1.0);
+  const auto marker = make_template(ink, x);
+  std::vector<std::vector<Marker>> found(1);
+  for (double at = 182; at < 202; at += 1)
+    if (const auto here = fit(marker, map, {at, 142 - 0.12 * at});
+        is_marker(here) && distinct(marker, map, here) > 0)
+      found[0].push_back(marker_at(marker, here));
+  ASSERT_FALSE(found[0].empty());
+  drop_stretches(map, 5, {marker}, found);
+  EXPECT_TRUE(found[0].empty());
+}
+
 TEST(Stretches, OfALineAreDroppedAndMarkersOnItStay) {
   const std::vector<cv::Point2d> at{{60.2, 150.3}, {170.6, 128.2}, {301.4, 102.0}, {240.5, 60.2}};
   for (const Shape shape : {Shape{Outline::x, Fill::any}, Shape{Outline::circle, Fill::filled},

@@ -341,6 +341,9 @@ TEST(Learn, RingsBesideLargerFilledMarkersOfTheirInk) {
   of_rings.among = of_diamonds.among = {ring, diamond};
   of_rings.rivals = {diamond};
   of_diamonds.rivals = {ring};
+  const auto first = learn(map, of_rings);  // while the diamonds are there
+  ASSERT_TRUE(first);
+  EXPECT_NEAR(first->box.width, 15, 1.5);
   const auto learned = learn_all(map, {of_rings, of_diamonds});
   ASSERT_TRUE(learned[0] && learned[1]);
   const auto found = find_markers(map, {*learned[0], *learned[1]});
