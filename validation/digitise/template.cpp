@@ -130,6 +130,13 @@ Drawn drawn_like(const cv::Mat& ink, Outline outline) {
   std::array<double, 4> best{start.x + start.width / 2 - ink.cols / 2.0,
                              start.y + start.height / 2 - ink.rows / 2.0, start.width,
                              start.height};
+  // A lost tip may lie outside of the image, not half of the shape: that of a diamond is a
+  // triangle.
+  const double beyond = 1 + std::max(ink.cols, ink.rows) / 8.0;
+  const auto is_inside = [&](const std::array<double, 4>& p) {
+    return 2 * std::abs(p[0]) + p[2] < ink.cols + 2 * beyond &&
+           2 * std::abs(p[1]) + p[3] < ink.rows + 2 * beyond;
+  };
   const auto difference = [&](const std::array<double, 4>& p) {
     const auto drawn =
         draw_shape({outline, Fill::filled}, {p[2], p[3]}, 1, ink.size(), {p[0], p[1]});
@@ -147,7 +154,7 @@ Drawn drawn_like(const cv::Mat& ink, Outline outline) {
           for (const double also : {0.0, -0.5, 0.5}) {
             auto shifted_trial = trial;
             if (i >= 2) shifted_trial[i - 2] += also * way;
-            if (trial[2] < 2 || trial[3] < 2) continue;
+            if (trial[2] < 2 || trial[3] < 2 || !is_inside(shifted_trial)) continue;
             if (const double now = difference(shifted_trial); now < least - 1e-9) {
               least = now;
               best = shifted_trial;
@@ -344,10 +351,9 @@ Template reshaped(const Template& marker, const std::vector<Shape>& shapes) {
   double least = std::min(0.4, drawn_like(ink, best.outline).differs);
   for (const auto& one : shapes) {
     if (is_strokes(one.outline) || one.fill != marker.shape.fill) continue;
-    const auto drawn = drawn_like(ink, one.outline);
-    // Half of a diamond, its other half beyond the image, is a triangle.
-    if (drawn.differs >= least || !is_proportioned(one.outline, drawn.box.size())) continue;
-    least = drawn.differs;
+    const double now = drawn_like(ink, one.outline).differs;
+    if (now >= least) continue;
+    least = now;
     best = one;
   }
   return best.outline == marker.shape.outline ? marker : make_template(ink, best);

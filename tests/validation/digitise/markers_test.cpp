@@ -379,6 +379,19 @@ TEST(Learn, AMarkerShownWithTheLineThatPassesIt) {
   EXPECT_EQ(find_markers(map, {*marker})[0].size(), at.size());
 }
 
+TEST(Template, ASquareWithTheEndsOfItsLineIsNoCutTriangle) {
+  const Shape square{Outline::square, Fill::filled};
+  for (const double angle : {0.0, 0.3, 0.7}) {
+    cv::Mat ink = draw_shape(square, {30, 30}, 1, {46, 46});
+    const cv::Point2d way(std::cos(angle), std::sin(angle)), middle(23, 23);
+    ink = cv::max(ink, drawn_stroke(middle - 22 * way, middle + 22 * way, 5, ink.size()));
+    const auto bare = trimmed(make_template(ink, square), candidates(std::nullopt), 0.4);
+    EXPECT_EQ(name_of(bare.shape), "filled square");
+    EXPECT_NEAR(bare.box.width, 30, 1.5);
+    EXPECT_LT(cv::norm(bare.reference), 0.5);
+  }
+}
+
 TEST(Template, ASmallBlurredTriangleIsNoPentagon) {
   cv::Mat ink = draw_shape({Outline::triangle, Fill::filled}, {11, 11}, 1, {21, 21});
   cv::GaussianBlur(ink, ink, {}, 1.4);
