@@ -37,7 +37,20 @@ std::vector<cv::Rect> glyphs_of(const cv::Mat& mask, cv::Point offset) {
   return glyphs;
 }
 
-/// Letters next to one another, unlike in size: markers in a row are alike.
+bool alike(const cv::Rect& a, const cv::Rect& b) {
+  return std::abs(a.width - b.width) <= std::max(1.0, 0.12 * a.width) &&
+         std::abs(a.height - b.height) <= std::max(1.0, 0.08 * a.height);
+}
+
+/// Whether a glyph's like is in four or more other columns, as a series' markers are. Letters that
+/// the rows of a legend have in common stand below one another.
+bool recurs(const cv::Rect& glyph, const std::vector<cv::Rect>& glyphs) {
+  return std::count_if(glyphs.begin(), glyphs.end(), [&](const cv::Rect& other) {
+           return std::abs(other.x - glyph.x) > glyph.width / 2 && alike(glyph, other);
+         }) >= 4;
+}
+
+/// Letters next to one another, unlike in size: markers in a row are alike, or each is like others.
 std::vector<Word> words_of(const std::vector<cv::Rect>& glyphs) {
   std::vector<Word> words;
   for (const auto& glyph : glyphs) {
@@ -56,13 +69,13 @@ std::vector<Word> words_of(const std::vector<cv::Rect>& glyphs) {
       home->box |= glyph;
     }
   }
-  std::erase_if(words, [](const Word& word) {
-    if (word.glyphs.size() < 2) return true;
-    const auto& first = word.glyphs.front();
-    return std::all_of(word.glyphs.begin(), word.glyphs.end(), [&](const cv::Rect& glyph) {
-      return std::abs(glyph.width - first.width) <= std::max(1.0, 0.12 * first.width) &&
-             std::abs(glyph.height - first.height) <= std::max(1.0, 0.08 * first.height);
-    });
+  std::erase_if(words, [&](const Word& word) {
+    const auto every = [&](const auto& holds) {
+      return std::all_of(word.glyphs.begin(), word.glyphs.end(), holds);
+    };
+    return word.glyphs.size() < 2 ||
+           every([&](const cv::Rect& glyph) { return alike(word.glyphs.front(), glyph); }) ||
+           every([&](const cv::Rect& glyph) { return recurs(glyph, glyphs); });
   });
   return words;
 }
@@ -131,6 +144,15 @@ int pieces_within(const cv::Mat& ink, const cv::Rect& box) {
   return pieces;
 }
 
+/// A marker is a box too, an empty one. None is as large as an inset, whose curves may touch it.
+bool holds_plot_or_text(const cv::Mat& ink, const cv::Rect& box, const cv::Rect& area) {
+  if (std::min(box.width, box.height) < std::min(area.width, area.height) / 6)
+    return pieces_within(ink, box) >= 3;
+  const cv::Rect middle(box.x + box.width / 4, box.y + box.height / 4, box.width / 2,
+                        box.height / 2);
+  return cv::countNonZero(ink(middle) > 0.3F) > 0;
+}
+
 }  // namespace
 
 std::vector<cv::Rect> find_boxes(const Rules& rules, const cv::Mat& ink, const cv::Rect& area) {
@@ -162,8 +184,7 @@ std::vector<cv::Rect> find_boxes(const Rules& rules, const cv::Mat& ink, const c
         cv::Rect box(cvFloor(first.from - 3), cvFloor(first.at - 3), cvCeil(first.length() + 6),
                      cvCeil(apart + 6));
         if (is_upright) box = cv::Rect(box.y, box.x, box.height, box.width);
-        // A marker is a box too, an empty one.
-        if ((box & area).area() > 0.9 * box.area() && pieces_within(ink, box & area) >= 3)
+        if ((box & area).area() > 0.9 * box.area() && holds_plot_or_text(ink, box & area, area))
           boxes.push_back(box & area);
       }
   };

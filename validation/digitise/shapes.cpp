@@ -254,12 +254,17 @@ Reference reference_of(const Shape& shape, cv::Size2d box, double stroke) {
     towards_base = (least + most) / 2;
     reference.uncertain = (most - least) / std::sqrt(12.0);
   }
-  // An equilateral triangle is 0.87 as high as wide; one drawn as high as wide, on whole pixels,
-  // may lack two pixels of twenty.
-  if (height < 0.9 * width) {
-    towards_base = 1.0 / 6;
-    reference.uncertain = 0.01;
-  }
+  // Those of gnuplot lack the pixel at their base, equilateral ones, one in four, an eighth of
+  // their height; measured to 0.4 pixels, small ones may be either.
+  const double lacks = width - height, equilateral_lacks = (1 - std::sqrt(3.0) / 2) * width;
+  towards_base += std::clamp(lacks, 0.0, 1.0) / 2 / height;
+  const double either = (1 + equilateral_lacks) / 2, apart = equilateral_lacks - 1;
+  const double odds = std::exp((lacks - either) * apart / (0.4 * 0.4)) / 3;
+  const double share = std::isinf(odds) ? 1 : odds / (1 + odds);
+  const double between = 1.0 / 6 - towards_base;
+  reference.uncertain = std::sqrt((1 - share) * reference.uncertain * reference.uncertain +
+                                  share * 0.01 * 0.01 + share * (1 - share) * between * between);
+  towards_base += share * between;
   switch (outline) {
     case Outline::triangle:
       reference.at = {0, towards_base};

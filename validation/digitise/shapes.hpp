@@ -61,8 +61,9 @@ cv::Mat draw_shape(const Shape& shape, cv::Size2d box, double stroke, cv::Size s
 /// reaches there (mitred) or not (round): 0.31 of the stroke's width farther than at the base.
 /// `stroke` is that of an open marker [px]; of a filled one it is not seen: between a white edge of
 /// a twelfth of the size and one of its own colour of a quarter (matplotlib's and gnuplot's have a
-/// sixth by default, small markers and those of thick lines more). Flatter triangles are taken for
-/// equilateral ones that stand with their centre of mass on the point.
+/// sixth by default, small markers and those of thick lines more). Those that lack a pixel of their
+/// height lack it at the base (gnuplot); equilateral ones stand with their centre of mass on the
+/// point. Where the box does not tell these the point is between, and that uncertain.
 struct Reference {
   cv::Point2d at;
   double uncertain = 0;

@@ -282,6 +282,21 @@ TEST(Shapes, AnOpenTrianglesPointIsBelowTheMiddleOfItsInkByTheMitre) {
               0.001);
 }
 
+TEST(Shapes, ATriangleOfGnuplotLacksAPixelAtItsBaseAndAnEquilateralOneAnEighth) {
+  const auto below_middle = [](double width, double height) {  // rows, and their uncertainty
+    const auto rule = reference_of({Outline::triangle, Fill::open}, {width, height}, 1.5);
+    return std::pair(rule.at.y * height, rule.uncertain * height);
+  };
+  const double mitre = below_middle(40, 40).first;
+  EXPECT_NEAR(below_middle(40, 39).first, mitre + 0.5, 0.01);
+  EXPECT_NEAR(below_middle(40, 0.866 * 40).first, 0.866 * 40 / 6, 0.01);
+  // Of 14 pixels they differ by 0.9 in height and by 0.8 in their point.
+  const auto [small, known_to] = below_middle(14, 12.6);
+  EXPECT_GT(small, mitre + 0.5);
+  EXPECT_LT(small, 12.6 / 6);
+  EXPECT_GT(2 * known_to, std::max(12.6 / 6 - small, small - mitre - 0.5));
+}
+
 TEST(Triangle, IsWhereItsSidesMeetThoughABarHidesItsTip) {
   const cv::Size size(60, 70);
   const cv::Point2d off(0.3, 8.4);
@@ -512,6 +527,20 @@ TEST(Legend, DashesBetweenMarkersWithBarsAreNoWords) {
     ink(cv::Rect(x + 33, 97, 14, 6)).setTo(1);
   }
   EXPECT_TRUE(find_legend_rows(ink, ink, {0, 0, 500, 400}).empty());
+}
+
+TEST(Legend, MarkersOfTwoSeriesSideBySideAreNoWord) {
+  cv::Mat ink = cv::Mat::zeros(400, 500, CV_32F);
+  const auto disc = [&](int x, int y) { cv::circle(ink, {x, y}, 9, cv::Scalar(1), cv::FILLED); };
+  const auto box = [&](int x, int y) { ink(cv::Rect(x - 12, y - 12, 25, 25)).setTo(1); };
+  disc(100, 100);
+  box(125, 98);
+  box(190, 102);
+  const auto rows = [&] { return find_legend_rows(ink, ink, {0, 0, 500, 400}).size(); };
+  EXPECT_GT(rows(), 0U);  // what a short word and a sample look like
+  for (const int x : {150, 210, 270, 330}) disc(x, 300);
+  for (const int x : {60, 270, 330}) box(x, 200);
+  EXPECT_EQ(rows(), 0U);
 }
 
 TEST(Legend, PaleLettersAndASampleAtItsFrameAreALegend) {
