@@ -86,9 +86,11 @@ std::optional<Template> found_template(const InkMap& map, const MarkerQuery& que
     std::erase_if(pieces, [&](const Piece& piece) { return piece.breadth < 2 * stroke; });
   }
   const auto alone = best_group(pieces, map.coverage, query.among, shapes, 0.8);
-  if (alone && (alone->ink > much * all ||
-                (alone->pieces.size() >= 3 && (query.shape || alone->resemblance > 0.88))))
-    return without_bars(template_of(*alone, map), shapes, query.with_line);
+  const bool several = alone && alone->pieces.size() >= 3;
+  std::optional<Template> bare;
+  if (several || (alone && alone->ink > much * all))
+    bare = without_bars(template_of(*alone, map), shapes, query.with_line);
+  if (bare && (alone->ink > much * all || alone->resemblance > 0.88)) return bare;
   const auto filled = on_lines(map, mask, shapes);
   // Crossings of lines and bars look like small filled markers, but hold little of the ink; patches
   // of a line lie little better than beside. A marker's whole worth is a fifth of its ink, at half
@@ -97,9 +99,15 @@ std::optional<Template> found_template(const InkMap& map, const MarkerQuery& que
       worth(map, *filled) > 0.2 * much * all)
     return filled;
   const auto drawn = search_drawn(map, query.shape ? shapes : common_shapes(), query.rivals);
-  if (filled && drawn) return worth(map, *filled) > worth(map, *drawn) ? filled : drawn;
-  if (filled) return filled;
-  if (drawn) return drawn;
+  if (!query.shape) bare.reset();  // too little alike to tell its shape
+  std::optional<Template> best;
+  double most = -1;
+  for (const auto& one : {drawn, filled, bare})
+    if (const double now = one ? worth(map, *one) : -1; now > most) {
+      best = one;
+      most = now;
+    }
+  if (best) return best;
   if (alone) return template_of(*alone, map);
   // A shape without a name, or one that does not look like its name.
   if (auto group = best_group(pieces, map.coverage, query.among, query.among, 0.0)) {
