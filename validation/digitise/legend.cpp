@@ -21,6 +21,18 @@ bool same_row(const cv::Rect& a, const cv::Rect& b) {
   return 2 * overlap >= low && 2.5 * low >= high;
 }
 
+/// Whether a disc of more than 0.6 of a piece's height finds room in it: a filled marker is no
+/// letter. (Small letters are filled by a blur.)
+bool is_filled(const cv::Mat& piece) {
+  if (piece.rows < 10) return false;
+  cv::Mat framed, depth;
+  cv::copyMakeBorder(piece, framed, 1, 1, 1, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
+  cv::distanceTransform(framed, depth, cv::DIST_L2, 5);
+  double radius = 0;
+  cv::minMaxLoc(depth, nullptr, &radius);
+  return 2 * radius > 0.6 * piece.rows;
+}
+
 /// Pieces of ink of a letter's size.
 std::vector<cv::Rect> glyphs_of(const cv::Mat& mask, cv::Point offset) {
   cv::Mat labels, stats, centres;
@@ -31,7 +43,7 @@ std::vector<cv::Rect> glyphs_of(const cv::Mat& mask, cv::Point offset) {
     const cv::Rect box(stats.at<int>(i, cv::CC_STAT_LEFT), stats.at<int>(i, cv::CC_STAT_TOP),
                        stats.at<int>(i, cv::CC_STAT_WIDTH), stats.at<int>(i, cv::CC_STAT_HEIGHT));
     if (box.height < 5 || box.height > tallest || box.width > 3 * box.height) continue;
-    glyphs.push_back(box + offset);
+    if (!is_filled(labels(box) == i)) glyphs.push_back(box + offset);
   }
   std::sort(glyphs.begin(), glyphs.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
   return glyphs;

@@ -531,16 +531,26 @@ TEST(Legend, DashesBetweenMarkersWithBarsAreNoWords) {
 
 TEST(Legend, MarkersOfTwoSeriesSideBySideAreNoWord) {
   cv::Mat ink = cv::Mat::zeros(400, 500, CV_32F);
-  const auto disc = [&](int x, int y) { cv::circle(ink, {x, y}, 9, cv::Scalar(1), cv::FILLED); };
-  const auto box = [&](int x, int y) { ink(cv::Rect(x - 12, y - 12, 25, 25)).setTo(1); };
-  disc(100, 100);
+  const auto ring = [&](int x, int y) { cv::circle(ink, {x, y}, 9, cv::Scalar(1), 2); };
+  const auto box = [&](int x, int y) {
+    cv::rectangle(ink, cv::Rect(x - 12, y - 12, 25, 25), cv::Scalar(1), 2);
+  };
+  ring(100, 100);
   box(125, 98);
   box(190, 102);
   const auto rows = [&] { return find_legend_rows(ink, ink, {0, 0, 500, 400}).size(); };
   EXPECT_GT(rows(), 0U);  // what a short word and a sample look like
-  for (const int x : {150, 210, 270, 330}) disc(x, 300);
+  for (const int x : {150, 210, 270, 330}) ring(x, 300);
   for (const int x : {60, 270, 330}) box(x, 200);
   EXPECT_EQ(rows(), 0U);
+}
+
+TEST(Legend, FilledMarkersOnALevelDashedLineAreNoWord) {
+  cv::Mat ink = cv::Mat::zeros(400, 500, CV_32F);
+  const auto disc = [&](int x, int y) { cv::circle(ink, {x, y}, 9, cv::Scalar(1), cv::FILLED); };
+  for (const int x : {100, 198, 252}) disc(x, 100);
+  for (const int x : {125, 212}) ink(cv::Rect(x, 97, 32, 6)).setTo(1);  // the second meets a disc
+  EXPECT_TRUE(find_legend_rows(ink, ink, {0, 0, 500, 400}).empty());
 }
 
 TEST(Legend, PaleLettersAndASampleAtItsFrameAreALegend) {
