@@ -11,6 +11,8 @@
 namespace bedscope::digitise {
 namespace {
 
+constexpr double beside = 1.5;  // px: the pixel beside the middle, and the line's rounding
+
 /// The line that is meant by a point: the only one near it.
 std::optional<double> meant(double at, const std::vector<double>& lines, double pixel) {
   std::optional<double> line;
@@ -19,7 +21,7 @@ std::optional<double> meant(double at, const std::vector<double>& lines, double 
     if (line) return std::nullopt;
     line = other;
   }
-  return line && std::abs(*line - at) <= 2 * pixel ? line : std::nullopt;
+  return line && std::abs(*line - at) <= beside * pixel ? line : std::nullopt;
 }
 
 constexpr double of_a_fraction = 0.1;  // standard uncertainty of a pixel given as a fraction [px]

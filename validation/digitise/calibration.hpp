@@ -29,7 +29,7 @@ struct Calibration {
 
 /// The places of an axis' points at `along` [px]. Whole pixels were picked by eye, which may take a
 /// line's neighbouring pixel for its middle: uniform within one pixel to each side. Where one of
-/// the lines across the axis (frame, grid, ticks; `lines` are their middles) is within two pixels,
+/// the lines across the axis (frame, grid, ticks; `lines` are their middles) is within one and a half,
 /// and no other is near, that line was meant, and programs draw it on whole pixels: uniform within
 /// half a pixel. A line on the middle of a pixel (of an odd thickness) is drawn there by gnuplot
 /// because that is its place; matplotlib rounds to the edge between two pixels and then draws half

@@ -277,7 +277,7 @@ TracedLine trace_line(const InkMap& whole, const std::vector<LinePoint>& through
   auto turned_through = through;
   for (auto& point : turned_through) std::swap(point.at.x, point.at.y);
   const auto by_column = whole_path(map, through), by_row = whole_path(turned, turned_through);
-  const bool along_x = by_column.mass >= by_row.mass - 0.1 * all;
+  const bool along_x = by_column.mass >= by_row.mass - 0.03 * all;
   auto line =
       along_x ? sample(map, by_column, stroke, points) : sample(turned, by_row, stroke, points);
   line.along_x = along_x;

@@ -72,6 +72,8 @@ TEST(Calibration, APickedPixelStandsForTheOneLineBesideIt) {
   EXPECT_DOUBLE_EQ(places[2].at, 500);
   EXPECT_NEAR(places[0].u, 0.5 / std::sqrt(3.0), 1e-12);
   EXPECT_NEAR(places[1].u, 1 / std::sqrt(3.0), 1e-12);
+  // A tick that the frame two pixels away hides was meant.
+  EXPECT_DOUBLE_EQ(places_of(picked, {100, 300}, {102, 300}, 1, false)[0].at, 100);
   // What was measured is left as it is.
   const auto measured = axis({{{100.25, 0}, 0}, {{300, 0}, 1}});
   EXPECT_DOUBLE_EQ(places_of(measured, {100.25, 300}, {101}, 1, false)[0].at, 100.25);
