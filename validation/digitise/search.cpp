@@ -69,16 +69,6 @@ std::vector<std::pair<double, cv::Point2d>> peaks(const cv::Mat& coverage, const
   return found;
 }
 
-/// The thickest stroke of a marker as a share of its width. An open one has a hole of three tenths
-/// of its inscribed circle or more; one without would lie as well as a filled one.
-double thickest_stroke(const Shape& shape) {
-  if (is_strokes(shape.outline)) return 0.3;
-  double inscribed = 0.5;  // its radius
-  if (shape.outline == Outline::diamond) inscribed = 0.354;
-  if (is_triangle(shape.outline)) inscribed = 0.289;
-  return 0.7 * inscribed;
-}
-
 struct Guess {
   Shape shape;
   cv::Size2d box;

@@ -186,6 +186,14 @@ bool is_proportioned(Outline outline, cv::Size2d box) {
   return ratio > narrowest / rounding && ratio < widest * rounding;
 }
 
+double thickest_stroke(const Shape& shape) {
+  if (is_strokes(shape.outline)) return 0.3;
+  double inscribed = 0.5;  // its radius
+  if (shape.outline == Outline::diamond) inscribed = 0.354;
+  if (is_triangle(shape.outline)) inscribed = 0.289;
+  return 0.7 * inscribed;
+}
+
 cv::Mat draw_shape(const Shape& shape, cv::Size2d box, double stroke, cv::Size size,
                    cv::Point2d off) {
   cv::Mat canvas = cv::Mat::zeros(size.height * fine, size.width * fine, CV_8U);
@@ -246,7 +254,8 @@ Reference reference_of(const Shape& shape, cv::Size2d box, double stroke) {
   // farther off the path the outer edges of the stroke meet at the tip, 1 / sin(26.57 degrees) of
   // half its thickness, than it reaches at the base.
   constexpr double mitre = 0.31;
-  double towards_base = mitre * stroke / height;
+  // A bar or a line in a small one's hole is not its stroke.
+  double towards_base = mitre * std::min(stroke, thickest_stroke(shape) * width) / height;
   Reference reference;
   reference.uncertain = 0.2 * towards_base;  // as the thickness
   if (shape.fill == Fill::filled) {          // uniform between the extremes

@@ -48,6 +48,10 @@ bool is_strokes(Outline outline);  ///< plus, x, asterisk: no inside
 /// line, that would explain more ink than a marker, is none.
 bool is_proportioned(Outline outline, cv::Size2d box);
 
+/// The thickest stroke of a marker as a share of its width. An open one has a hole of three tenths
+/// of its inscribed circle or more; one without would lie as well as a filled one.
+double thickest_stroke(const Shape& shape);
+
 /// The outline (no cross) scaled to a width and height in pixels, filled or as a stroke whose outer
 /// edge touches the box, drawn with anti-aliasing `off` the middle of an image of `size` pixels.
 /// Returns coverage 0 to 1, CV_32F.

@@ -284,6 +284,12 @@ TEST(Shapes, AnOpenTrianglesPointIsBelowTheMiddleOfItsInkByTheMitre) {
               0.001);
 }
 
+TEST(Shapes, ABarInASmallTrianglesHoleIsNotItsStroke) {
+  const Shape open{Outline::triangle, Fill::open};
+  const cv::Size2d box(22.5, 22.5);
+  EXPECT_EQ(reference_of(open, box, 8).at.y, reference_of(open, box, 0.7 * 0.289 * 22.5).at.y);
+}
+
 TEST(Shapes, ATriangleOfGnuplotLacksAPixelAtItsBaseAndAnEquilateralOneAnEighth) {
   const auto below_middle = [](double width, double height) {  // rows, and their uncertainty
     const auto rule = reference_of({Outline::triangle, Fill::open}, {width, height}, 1.5);
