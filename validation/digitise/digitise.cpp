@@ -293,9 +293,10 @@ class Digitiser {
       const auto line = trace(covered(map, templates, markers, true), all_points(markers), 400);
       markers = beside_line(map, line, templates, markers);
     }
-    for (std::size_t t = 0; t < templates.size(); ++t)
-      if (figure_.series[with_markers[t]].error_bars.value_or(true))
-        drop_on_bars(map, templates[t], markers[t], with_line);
+    std::vector<bool> with_bars;
+    for (const auto i : with_markers)
+      with_bars.push_back(figure_.series[i].error_bars.value_or(true));
+    drop_on_bars(map, templates, with_bars, markers, with_line);
     for (std::size_t t = 0; t < templates.size(); ++t)
       if (markers[t].empty()) miss(figure_.series[with_markers[t]], "markers");
     if (std::any_of(markers.begin(), markers.end(), [](const auto& one) { return one.empty(); }))

@@ -174,37 +174,49 @@ std::vector<ErrorBar> find_error_bars(const InkMap& map, const Template& marker,
   return bars;
 }
 
-void drop_on_bars(const InkMap& map, const Template& marker, std::vector<Marker>& markers,
+void drop_on_bars(const InkMap& map, const std::vector<Template>& templates,
+                  const std::vector<bool>& with_bars, std::vector<std::vector<Marker>>& found,
                   bool with_line) {
-  const double little = little_alike(markers);
-  const double aside = marker.box.width / 4, beyond = marker.box.height / 2;
-  std::vector<ErrorBar> bars;
-  for (const auto& one : markers)
-    bars.push_back(find_error_bar(map, marker, one.fit.origin + marker.reference, with_line));
-  // Where most markers have none, what looks like one is a steep line or a neighbour.
-  const auto n = std::count_if(bars.begin(), bars.end(),
-                               [](const ErrorBar& bar) { return bar.thickness > 0; });
-  if (2 * n < std::ssize(bars)) return;
-  const auto is_of_bar = [&](const Marker& one, const Marker& other, const ErrorBar& bar) {
-    if (!(one.fit.score < other.fit.score)) return false;
-    const auto at = one.fit.origin + marker.reference, from = other.fit.origin + marker.reference;
-    const double end = at.y < from.y ? bar.upper : bar.lower;
-    if (std::abs(at.x - from.x) > aside || std::isnan(end)) return false;
-    if (std::abs(at.y - from.y) > std::abs(end - from.y) + beyond) return false;
-    if (one.fit.score < little) return true;
-    // Not all that fits is the bar's: two markers of one abscissa.
-    InkMap rest{map.coverage, map.unknown.clone()};
-    hide(rest, bar, from, end, 1);
-    return !is_marker(fit(marker, rest, one.fit.origin));
+  struct Barred {
+    const Template* marker;
+    Fit fit;
+    cv::Point2d at;
+    ErrorBar bar;
   };
-  std::vector<Marker> kept;
-  for (const auto& one : markers) {
-    bool dropped = false;
-    for (std::size_t i = 0; i < markers.size() && !dropped; ++i)
-      dropped = is_of_bar(one, markers[i], bars[i]);
-    if (!dropped) kept.push_back(one);
+  std::vector<Barred> barred;
+  for (std::size_t t = 0; t < templates.size(); ++t) {
+    if (!with_bars[t]) continue;
+    std::vector<Barred> own;
+    for (const auto& one : found[t]) {
+      const auto at = one.fit.origin + templates[t].reference;
+      const auto bar = find_error_bar(map, templates[t], at, with_line);
+      if (bar.thickness > 0) own.push_back({&templates[t], one.fit, at, bar});
+    }
+    // Where most markers have none, what looks like one is a steep line or a neighbour.
+    if (2 * own.size() >= found[t].size()) barred.insert(barred.end(), own.begin(), own.end());
   }
-  markers = std::move(kept);
+  for (std::size_t t = 0; t < templates.size(); ++t) {
+    const auto& marker = templates[t];
+    const double little = little_alike(found[t]);
+    const auto is_of_bar = [&](const Marker& one, const Barred& other) {
+      if (!(one.fit.score < other.fit.score)) return false;
+      const auto at = one.fit.origin + marker.reference;
+      const double end = at.y < other.at.y ? other.bar.upper : other.bar.lower;
+      if (std::abs(at.x - other.at.x) > marker.box.width / 4 || std::isnan(end)) return false;
+      if (std::abs(at.y - other.at.y) > std::abs(end - other.at.y) + marker.box.height / 2)
+        return false;
+      if (one.fit.score < little) return true;
+      // Not all that fits is the bar's: two markers of one abscissa.
+      InkMap rest{map.coverage.clone(), map.unknown.clone()};
+      take_away(rest, *other.marker, other.fit.origin);
+      hide(rest, other.bar, other.at, end, 1);
+      return !is_marker(fit(marker, rest, one.fit.origin));
+    };
+    std::erase_if(found[t], [&](const Marker& one) {
+      return std::any_of(barred.begin(), barred.end(),
+                         [&](const Barred& other) { return is_of_bar(one, other); });
+    });
+  }
 }
 
 void cover(InkMap& map, const ErrorBar& bar, cv::Point2d at) {

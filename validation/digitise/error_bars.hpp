@@ -25,10 +25,12 @@ ErrorBar find_error_bar(const InkMap& map, const Template& marker, cv::Point2d a
 std::vector<ErrorBar> find_error_bars(const InkMap& map, const Template& marker,
                                       const std::vector<cv::Point2d>& at, bool with_line);
 
-/// Leaves out of `markers` those that lie on the bar of a better one and resemble the others
-/// little, or are none without that bar's ink: where a cap or the marker's edge crosses it. Two
-/// markers of one abscissa stay as far as the bar leaves enough of them.
-void drop_on_bars(const InkMap& map, const Template& marker, std::vector<Marker>& markers,
+/// Leaves out of the markers of each template those that lie on the bar of a better one, of any
+/// template that has bars, and resemble the others of theirs little, or are none without the ink of
+/// that marker and its bar: where a cap or the marker's edge crosses it. Two markers of one
+/// abscissa stay as far as the bar leaves enough of them.
+void drop_on_bars(const InkMap& map, const std::vector<Template>& templates,
+                  const std::vector<bool>& with_bars, std::vector<std::vector<Marker>>& found,
                   bool with_line);
 
 /// Under a bar nothing is known of a line of its ink.

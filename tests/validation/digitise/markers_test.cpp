@@ -209,6 +209,14 @@ TEST(ErrorBars, CapsCloseToTheirMarkersAreRead) {
   expect_bars({25, 8.5, 25, 9, 25, 8.5, 25}, 2, 4.5);
 }
 
+/// What drop_on_bars() leaves of one series.
+std::vector<Marker> off_bars(const InkMap& map, const Template& marker,
+                             const std::vector<Marker>& markers, bool with_line = false) {
+  std::vector<std::vector<Marker>> found{markers};
+  drop_on_bars(map, {marker}, {true}, found, with_line);
+  return found[0];
+}
+
 TEST(ErrorBars, WhatResemblesAMarkerLittleAndLiesOnABarIsNone) {
   auto map = empty();
   const auto at = places(6);
@@ -227,7 +235,7 @@ TEST(ErrorBars, WhatResemblesAMarkerLittleAndLiesOnABarIsNone) {
   }
   store(at[2] + cv::Point2d(0, 29), 0.65);   // where a cap meets its bar
   store(at[3] + cv::Point2d(20, 29), 0.65);  // beside: another curve may hide half of it
-  drop_on_bars(map, make_template(draw_shape(disc, {12, 12}, 1, {16, 16}), disc), markers, false);
+  markers = off_bars(map, make_template(draw_shape(disc, {12, 12}, 1, {16, 16}), disc), markers);
   ASSERT_EQ(markers.size(), at.size() + 1);
   EXPECT_EQ(markers.back().at, at[3] + cv::Point2d(20, 29));
 }
@@ -486,9 +494,37 @@ TEST(ErrorBars, OnABarIsAMarkerOnlyByInkThatIsNotTheBars) {
   store(at[1] + cap);  // is like a base
   store(at[2] + cap);
   ASSERT_GT(markers.back().fit.score, little_alike(markers));
-  drop_on_bars(map, marker, markers, false);
+  markers = off_bars(map, marker, markers);
   EXPECT_EQ(markers.size(), 7U);
   EXPECT_NEAR(markers.back().fit.origin.y, at[4].y + below.y, 1);
+}
+
+TEST(ErrorBars, CapsOfOneSeriesAreNoMarkersOfAnother) {
+  auto map = empty();
+  const Shape diamond{Outline::diamond, Fill::filled},
+      triangle{Outline::triangle_down, Fill::filled};
+  const auto at = places(6);
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    add(map, marker_at(i < 3 ? diamond : triangle, 13, 1, at[i]));
+    add_bar(map, at[i], 22, 3, 6);
+  }
+  cv::GaussianBlur(map.coverage, map.coverage, {}, 0.8);
+  std::vector<Template> templates;
+  std::vector<std::vector<Marker>> found(2);
+  for (const auto& shape : {diamond, triangle}) {
+    cv::Mat ink = draw_shape(shape, {13, 13}, 1, {19, 19});
+    cv::GaussianBlur(ink, ink, {}, 0.8);
+    templates.push_back(make_template(ink, shape));
+  }
+  const auto store = [&](std::size_t t, cv::Point2d place) {
+    found[t].push_back(marker_at(templates[t], fit(templates[t], map, place)));
+  };
+  for (std::size_t i = 0; i < at.size(); ++i) store(i < 3 ? 0 : 1, at[i]);
+  store(1, at[1] - cv::Point2d(0, 18));  // a cap with the bar below it
+  ASSERT_GT(found[1].back().fit.score, little_alike(found[1]));
+  drop_on_bars(map, templates, {true, true}, found, false);
+  EXPECT_EQ(found[0].size(), 3U);
+  EXPECT_EQ(found[1].size(), 3U);
 }
 
 TEST(ErrorBars, AMarkerOnASteepLineIsNotTheCapOfABar) {
@@ -508,7 +544,7 @@ TEST(ErrorBars, AMarkerOnASteepLineIsNotTheCapOfABar) {
   const auto bar = find_error_bar(map, marker, markers[7].at, true);
   ASSERT_FALSE(std::isnan(bar.upper));  // the line up to the next one looks like a bar
   markers[3].fit.score = std::min(markers[3].fit.score, markers[7].fit.score - 0.01);
-  drop_on_bars(map, marker, markers, true);
+  markers = off_bars(map, marker, markers, true);
   EXPECT_EQ(markers.size(), at.size());
 }
 
