@@ -91,12 +91,21 @@ std::vector<std::vector<Marker>> beside_line(const InkMap& map, const TracedLine
   std::vector<std::vector<Marker>> again(templates.size());
   for (std::size_t t = 0; t < templates.size(); ++t)
     for (auto one : found[t]) {
-      const auto here = best_near(templates[t], alone, one.fit.origin);
+      auto here = best_near(templates[t], alone, one.fit.origin);
       const auto as_it_was = seen_at(templates[t], alone, one.fit.origin);
       if (as_it_was.known > to_tell && std::max(as_it_was.score, here.score) < least_score)
         continue;
-      if (is_marker(here)) one = marker_at(templates[t], here);
-      again[t].push_back(one);
+      std::size_t which = t;
+      for (std::size_t other = 0; one.doubted && other < templates.size(); ++other)
+        if (const auto there = best_near(templates[other], alone, one.fit.origin);
+            is_marker(there) && there.score > here.score) {
+          here = there;
+          which = other;
+        }
+      const bool doubted = one.doubted;
+      if (is_marker(here)) one = marker_at(templates[which], here);
+      one.doubted = doubted;
+      again[which].push_back(one);
     }
   for (std::size_t t = 0; t < templates.size(); ++t)
     for (const auto& one : again[t]) take_away(rest, templates[t], one.fit.origin);

@@ -237,13 +237,14 @@ class Digitiser {
                hidden_from(colours_, ink)(area_).clone()};
     // Markers with an edge of another ink: what surrounds them all is not what hides them.
     if (is_edged(map)) map.unknown.setTo(0);
+    // Before a legend on the frame or on a grid line cuts it short.
+    clear_rules(map, is_grey(colours_.inks[static_cast<std::size_t>(ink)]));
     for (const auto& box : found_.left_out) {
       const cv::Rect there = box & area_;
       if (there.empty()) continue;
       map.coverage(there - area_.tl()).setTo(0);
       map.unknown(there - area_.tl()).setTo(255);
     }
-    clear_rules(map, is_grey(colours_.inks[static_cast<std::size_t>(ink)]));
     hide_edges(map);
     return map;
   }
@@ -351,6 +352,14 @@ class Digitiser {
       found_.doubts.push_back(fmt::format("series {}: {} more places look like markers: {}",
                                           names_of(series), missed.size(),
                                           listed(missed, area_.tl())));
+    std::vector<cv::Point2d> either;
+    for (const auto& of_series : markers)
+      for (const auto& one : of_series)
+        if (one.doubted) either.push_back(one.at);
+    if (!either.empty())
+      found_.doubts.push_back(fmt::format("series {}: {} markers resemble those of two series: {}",
+                                          names_of(series), either.size(),
+                                          listed(either, area_.tl())));
     for (std::size_t t = 0; t < series.size(); ++t)
       if (const auto unlike = unlike_others(markers[t]); !unlike.empty())
         found_.doubts.push_back(fmt::format(

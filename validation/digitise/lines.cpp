@@ -159,6 +159,15 @@ Path whole_path(const InkMap& map, const std::vector<LinePoint>& through) {
   return whole;
 }
 
+/// The path through the markers, or past them where that explains more ink: a curve that was not
+/// drawn from marker to marker.
+Path best_of(const InkMap& map, const std::vector<LinePoint>& through, double all) {
+  auto joined = whole_path(map, through);
+  if (through.empty()) return joined;
+  auto alone = whole_path(map, {});
+  return alone.mass > joined.mass + 0.03 * all ? alone : joined;
+}
+
 /// How far the path is from its beginning at each run.
 std::vector<double> lengths_along(const std::vector<Run>& runs) {
   std::vector<double> along{0};
@@ -276,7 +285,7 @@ TracedLine trace_line(const InkMap& whole, const std::vector<LinePoint>& through
   const InkMap turned{map.coverage.t(), map.unknown.t()};
   auto turned_through = through;
   for (auto& point : turned_through) std::swap(point.at.x, point.at.y);
-  const auto by_column = whole_path(map, through), by_row = whole_path(turned, turned_through);
+  const auto by_column = best_of(map, through, all), by_row = best_of(turned, turned_through, all);
   const bool along_x = by_column.mass >= by_row.mass - 0.03 * all;
   auto line =
       along_x ? sample(map, by_column, stroke, points) : sample(turned, by_row, stroke, points);

@@ -11,6 +11,7 @@ namespace {
 constexpr double least_known = 0.35;
 constexpr double least_known_well = 0.25;  ///< of half a marker at the plot's edge, less the frame
 constexpr double least_ink = 0.45;         // of each eighth
+constexpr double about_as_well = 0.02;
 
 /// Where a template may lie, coarsely: peaks of the correlation at a size of a dozen pixels.
 std::vector<cv::Point2d> guesses(const InkMap& map, const Template& marker) {
@@ -73,7 +74,13 @@ std::vector<std::vector<Marker>> best_first(const InkMap& map,
     // Again on what is left; alone, nothing has changed for it.
     const auto again = fit(marker, left, candidate.fit.origin);
     if (!is_marker(again) || cv::norm(again.origin - candidate.fit.origin) > 0.3 * size) continue;
-    found[candidate.which].push_back(marker_at(marker, again));
+    auto one = marker_at(marker, again);
+    one.doubted = std::any_of(candidates.begin(), candidates.end(), [&](const Candidate& other) {
+      return other.which != candidate.which &&
+             cv::norm(other.fit.origin - candidate.fit.origin) < 0.5 * size &&
+             worth(other.fit) > worth(candidate.fit) - about_as_well;
+    });
+    found[candidate.which].push_back(one);
     take_away(left, marker, again.origin);
   }
   return found;

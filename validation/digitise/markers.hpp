@@ -26,6 +26,7 @@ struct Marker {
   Fit fit;
   cv::Point2d at;        ///< the data point
   double u[2] = {0, 0};  ///< [px]
+  bool doubted = false;  ///< another template lies there about as well
 };
 
 /// The marker of a fit: its data point and that point's uncertainty.

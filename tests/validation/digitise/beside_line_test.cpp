@@ -68,6 +68,22 @@ TEST(BesideLine, MarkersOfAThinStrokeUnderAThickLineAreFound) {
     })) << one.at;
 }
 
+TEST(BesideLine, ADoubtedMarkerGoesToTheTemplateThatLiesBetterWithoutTheLine) {
+  const cv::Point2d at(200.4, 131.2);
+  const Shape diamond{Outline::diamond, Fill::filled},
+      triangle{Outline::triangle_down, Fill::filled};
+  const auto made = scene(diamond, 15, 1, 6, {at});
+  const std::vector<Template> templates{
+      made.marker, make_template(draw_shape(triangle, {15, 15}, 1, {17, 17}), triangle)};
+  auto taken = marker_at(templates[1], fit(templates[1], made.map, at));
+  EXPECT_EQ(beside_line(made.map, made.line, templates, {{}, {taken}})[1].size(), 1U);
+  taken.doubted = true;
+  const auto again = beside_line(made.map, made.line, templates, {{}, {taken}});
+  ASSERT_EQ(again[0].size(), 1U);
+  EXPECT_NEAR(again[0][0].at.y, at.y, 0.2);
+  EXPECT_TRUE(again[1].empty());
+}
+
 TEST(BesideLine, WhatTheLineCoversStaysWhereItWas) {
   const cv::Point2d at(200.4, 122.2);
   const auto made = scene({Outline::circle, Fill::filled}, 7, 1, 7, {at});

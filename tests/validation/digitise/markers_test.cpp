@@ -562,5 +562,21 @@ TEST(ErrorBars, NothingIsLeftOfThickCapsUnderACover) {
   EXPECT_LT(cv::sum(left.rowRange(0, 100))[0] + cv::sum(left.rowRange(140, rows))[0], 1);
 }
 
+TEST(Markers, ThatAnotherTemplateFitsAboutAsWellAreDoubted) {
+  const Shape disc{Outline::circle, Fill::filled}, box{Outline::square, Fill::filled};
+  auto map = empty();
+  add(map, marker_at(disc, 20, 1, {60.2, 120.4}));
+  add(map, marker_at(box, 20, 1, {140.2, 120.4}));
+  const cv::Point2d either(220.2, 120.4);  // with corners, but pale ones
+  add(map, 0.4 * marker_at(disc, 20, 1, either) + 0.6 * marker_at(box, 20, 1, either));
+  std::vector<Template> templates;
+  for (const auto& shape : {disc, box})
+    templates.push_back(make_template(draw_shape(shape, {20, 20}, 1, {24, 24}), shape));
+  const auto found = find_markers(map, templates);
+  ASSERT_EQ(found[0].size() + found[1].size(), 3U);
+  for (const auto& of_template : found)
+    for (const auto& one : of_template) EXPECT_EQ(one.doubted, one.at.x > 180) << one.at;
+}
+
 }  // namespace
 }  // namespace bedscope::digitise
