@@ -30,7 +30,7 @@ void clear_row(cv::Mat coverage, cv::Mat unknown) {
     if (coverage.at<float>(x) > 0.06F) inked.push_back(coverage.at<float>(x));
   std::sort(inked.begin(), inked.end());
   const float pale = inked[inked.size() / 2], upper = inked[inked.size() * 3 / 4];
-  if (pale > 0.6F) {
+  if (upper > 0.6F) {  // as dark as data
     unknown.setTo(255);
     coverage.setTo(0);
     return;

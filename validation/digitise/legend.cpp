@@ -165,6 +165,25 @@ bool holds_plot_or_text(const cv::Mat& ink, const cv::Rect& box, const cv::Rect&
   return cv::countNonZero(ink(middle) > 0.3F) > 0;
 }
 
+/// Whether the sides of a box cut through dark ink: markers and bars that lie beside one another.
+bool cuts(const cv::Mat& text, const cv::Rect& box) {
+  const int blur = 2;
+  const cv::Rect round =
+      cv::Rect(box.x - 2 * blur, box.y - 2 * blur, box.width + 4 * blur, box.height + 4 * blur) &
+      cv::Rect({0, 0}, text.size());
+  cv::Mat labels, stats, centres;
+  const int n = cv::connectedComponentsWithStats(text(round) > 0.4F, labels, stats, centres, 8);
+  const cv::Rect inner =
+      cv::Rect(box.x - blur, box.y - blur, box.width + 2 * blur, box.height + 2 * blur) -
+      round.tl();
+  for (int i = 1; i < n; ++i) {
+    const cv::Rect piece(stats.at<int>(i, cv::CC_STAT_LEFT), stats.at<int>(i, cv::CC_STAT_TOP),
+                         stats.at<int>(i, cv::CC_STAT_WIDTH), stats.at<int>(i, cv::CC_STAT_HEIGHT));
+    if ((piece & inner) != piece && !(piece & inner).empty()) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 std::vector<cv::Rect> find_boxes(const Rules& rules, const cv::Mat& ink, const cv::Rect& area) {
@@ -230,6 +249,7 @@ std::vector<cv::Rect> find_legend_rows(const cv::Mat& text, const cv::Mat& ink,
         for (const double any : {0.25, 0.5})
           if (const auto sample = sample_beside(ink > any, word.box, height, left, area)) {
             const cv::Rect both = word.box | *sample;
+            if (cuts(text, both)) continue;
             rows.push_back(cv::Rect(both.x - margin, both.y - margin, both.width + 2 * margin,
                                     both.height + 2 * margin) &
                            area);
