@@ -11,25 +11,6 @@ namespace {
 constexpr double to_tell = 0.1;    // whether it is one
 constexpr double to_place = 0.35;  // where it is, and that one was missed
 
-/// The map with nothing known where the line has ink, and a pixel round it.
-InkMap without_line(const InkMap& map, const TracedLine& line) {
-  constexpr int shift = 4;  // fractions of a pixel for OpenCV, whose pixels have their middles at 0
-  std::vector<cv::Point> way;
-  const auto add = [&](cv::Point2d at) {
-    way.emplace_back(cvRound((at.x - 0.5) * (1 << shift)), cvRound((at.y - 0.5) * (1 << shift)));
-  };
-  add(line.first);
-  for (const auto& point : line.points) add(point.at);
-  add(line.last);
-  cv::Mat band = cv::Mat::zeros(map.coverage.size(), CV_8U);
-  cv::polylines(band, way, false, cv::Scalar(255), cvCeil(line.stroke) + 2, cv::LINE_8, shift);
-  band.setTo(0, map.coverage < 0.06F);
-  InkMap rest{map.coverage.clone(), map.unknown.clone()};
-  rest.coverage.setTo(0, band);
-  rest.unknown.setTo(255, band);
-  return rest;
-}
-
 /// Where a marker lies best, from its place and from a quarter of its size to each side.
 Fit best_near(const Template& marker, const InkMap& rest, cv::Point2d origin) {
   Fit best = fit(marker, rest, origin);
@@ -74,6 +55,24 @@ bool is_stretch(const InkMap& map, const Template& marker, const Fit& where, dou
 
 }  // namespace
 
+InkMap without_line(const InkMap& map, const TracedLine& line) {
+  constexpr int shift = 4;  // fractions of a pixel for OpenCV, whose pixels have their middles at 0
+  std::vector<cv::Point> way;
+  const auto add = [&](cv::Point2d at) {
+    way.emplace_back(cvRound((at.x - 0.5) * (1 << shift)), cvRound((at.y - 0.5) * (1 << shift)));
+  };
+  add(line.first);
+  for (const auto& point : line.points) add(point.at);
+  add(line.last);
+  cv::Mat band = cv::Mat::zeros(map.coverage.size(), CV_8U);
+  cv::polylines(band, way, false, cv::Scalar(255), cvCeil(line.stroke) + 2, cv::LINE_8, shift);
+  band.setTo(0, map.coverage < 0.06F);
+  InkMap rest{map.coverage.clone(), map.unknown.clone()};
+  rest.coverage.setTo(0, band);
+  rest.unknown.setTo(255, band);
+  return rest;
+}
+
 void drop_stretches(const InkMap& map, double stroke, const std::vector<Template>& templates,
                     std::vector<std::vector<Marker>>& found) {
   for (std::size_t t = 0; t < templates.size(); ++t)
@@ -82,11 +81,13 @@ void drop_stretches(const InkMap& map, double stroke, const std::vector<Template
     });
 }
 
-std::vector<std::vector<Marker>> beside_line(const InkMap& map, const TracedLine& line,
+std::vector<std::vector<Marker>> beside_line(const InkMap& map,
+                                             const std::vector<TracedLine>& lines,
                                              const std::vector<Template>& templates,
                                              const std::vector<std::vector<Marker>>& found) {
-  if (line.points.empty()) return found;
-  auto rest = without_line(map, line);
+  if (lines.empty()) return found;
+  InkMap rest = map;
+  for (const auto& line : lines) rest = without_line(rest, line);
   const InkMap alone = rest;
   std::vector<std::vector<Marker>> again(templates.size());
   for (std::size_t t = 0; t < templates.size(); ++t)

@@ -288,12 +288,11 @@ class Digitiser {
     }
     if (templates.size() < learned.size()) return;
     auto markers = find_markers(map, templates);
-    const bool with_line = has_line(members);
     drop_stretches(map, line_width(map.coverage), templates, markers);
-    if (with_line && !templates.empty()) {
-      const auto line = trace(covered(map, templates, markers, true), all_points(markers), 400);
-      markers = beside_line(map, line, templates, markers);
-    }
+    const auto lines = templates.empty() ? std::vector<TracedLine>{}
+                                         : lines_beside(map, templates, markers, members);
+    const bool with_line = has_line(members) || !lines.empty();
+    markers = beside_line(map, lines, templates, markers);
     std::vector<bool> with_bars;
     for (const auto i : with_markers)
       with_bars.push_back(figure_.series[i].error_bars.value_or(true));
@@ -501,6 +500,43 @@ class Digitiser {
     complete(line.points, colours_.lossy);
     for (const auto& one : line.points)
       found.points.push_back(to_point(one.at + cv::Point2d(area_.tl()), one.u, one.u));
+  }
+
+  /// The lines of an ink with markers: as many as it has series of lines; where it has none, those
+  /// that are there though nobody asked for them, one a series of markers.
+  std::vector<TracedLine> lines_beside(const InkMap& map, const std::vector<Template>& templates,
+                                       const std::vector<std::vector<Marker>>& markers,
+                                       const std::vector<std::size_t>& members) const {
+    const auto asked =
+        static_cast<std::size_t>(std::count_if(members.begin(), members.end(), [&](std::size_t i) {
+          return figure_.series[i].kind == Kind::line;
+        }));
+    const auto most = asked > 0 ? asked : templates.size();
+    const auto through = all_points(markers);
+    auto rest = covered(map, templates, markers, asked > 0);
+    std::vector<TracedLine> lines;
+    while (lines.size() < most) {
+      const auto line = trace(rest, through, 400);
+      const double share = 0.6 / static_cast<double>(most - lines.size());
+      if (line.points.empty() || (asked == 0 && (line.explained < share || !spans(line, through))))
+        break;
+      lines.push_back(line);
+      rest = without_line(rest, line);
+    }
+    return lines;
+  }
+
+  /// Whether a line reaches over most of the way from the first marker to the last.
+  static bool spans(const TracedLine& line, const std::vector<LinePoint>& markers) {
+    const auto ends = [](const std::vector<LinePoint>& points) {
+      const auto [first, last] =
+          std::minmax_element(points.begin(), points.end(),
+                              [](const auto& a, const auto& b) { return a.at.x < b.at.x; });
+      return std::pair(first->at.x, last->at.x);
+    };
+    const auto [from, to] = ends(line.points);
+    const auto [first, last] = ends(markers);
+    return std::min(to, last) - std::max(from, first) > 0.6 * (last - first);
   }
 
   static TracedLine trace(const InkMap& map, const std::vector<LinePoint>& through, int points) {

@@ -50,7 +50,7 @@ TEST(BesideLine, AFilledMarkerThatALineDrewOverGoesBackToItsEdges) {
   const cv::Point2d at(200.4, 131.2);  // the line touches its upper edge
   const auto made = scene({Outline::square, Fill::filled}, 13, 1, 6, {at});
   const auto again =
-      beside_line(made.map, made.line, {made.marker}, {{placed(made, at - cv::Point2d(0, 3.5))}});
+      beside_line(made.map, {made.line}, {made.marker}, {{placed(made, at - cv::Point2d(0, 3.5))}});
   ASSERT_EQ(again[0].size(), 1U);
   EXPECT_NEAR(again[0][0].at.x, at.x, 0.1);
   EXPECT_NEAR(again[0][0].at.y, at.y, 0.1);
@@ -60,7 +60,7 @@ TEST(BesideLine, MarkersOfAThinStrokeUnderAThickLineAreFound) {
   std::vector<cv::Point2d> at;
   for (const double x : {60.2, 170.6, 301.4}) at.emplace_back(x, 162.3 - 0.2 * x);
   const auto made = scene({Outline::circle, Fill::open}, 19, 1.6, 7, at);
-  const auto again = beside_line(made.map, made.line, {made.marker}, {{}});
+  const auto again = beside_line(made.map, {made.line}, {made.marker}, {{}});
   ASSERT_EQ(again[0].size(), at.size());
   for (const auto& one : again[0])
     EXPECT_TRUE(std::any_of(at.begin(), at.end(), [&](cv::Point2d place) {
@@ -76,9 +76,9 @@ TEST(BesideLine, ADoubtedMarkerGoesToTheTemplateThatLiesBetterWithoutTheLine) {
   const std::vector<Template> templates{
       made.marker, make_template(draw_shape(triangle, {15, 15}, 1, {17, 17}), triangle)};
   auto taken = marker_at(templates[1], fit(templates[1], made.map, at));
-  EXPECT_EQ(beside_line(made.map, made.line, templates, {{}, {taken}})[1].size(), 1U);
+  EXPECT_EQ(beside_line(made.map, {made.line}, templates, {{}, {taken}})[1].size(), 1U);
   taken.doubted = true;
-  const auto again = beside_line(made.map, made.line, templates, {{}, {taken}});
+  const auto again = beside_line(made.map, {made.line}, templates, {{}, {taken}});
   ASSERT_EQ(again[0].size(), 1U);
   EXPECT_NEAR(again[0][0].at.y, at.y, 0.2);
   EXPECT_TRUE(again[1].empty());
@@ -87,7 +87,7 @@ TEST(BesideLine, ADoubtedMarkerGoesToTheTemplateThatLiesBetterWithoutTheLine) {
 TEST(BesideLine, WhatTheLineCoversStaysWhereItWas) {
   const cv::Point2d at(200.4, 122.2);
   const auto made = scene({Outline::circle, Fill::filled}, 7, 1, 7, {at});
-  const auto again = beside_line(made.map, made.line, {made.marker}, {{placed(made, at)}});
+  const auto again = beside_line(made.map, {made.line}, {made.marker}, {{placed(made, at)}});
   ASSERT_EQ(again[0].size(), 1U);
   EXPECT_EQ(again[0][0].at, at);
 }

@@ -34,7 +34,7 @@ def place(x, y):
     return 60 + 300 * x, 260 - 240 * y
 
 
-def draw(path, points=POINTS, colour=(214, 39, 40), bars=None, turn=0.0):
+def draw(path, points=POINTS, colour=(214, 39, 40), bars=None, turn=0.0, curve=(), width=4):
     image = Image.new("RGB", (400 * FINE, 300 * FINE), "white")
     pen = ImageDraw.Draw(image)
     corners = [place(0, 0), place(1, 0), place(1, 1), place(0, 1), place(0, 0)]
@@ -44,6 +44,8 @@ def draw(path, points=POINTS, colour=(214, 39, 40), bars=None, turn=0.0):
         pen.line([(FINE * a, FINE * b), (FINE * a, FINE * (b + 6))], fill="black", width=FINE)
         a, b = place(0, tick)
         pen.line([(FINE * (a - 6), FINE * b), (FINE * a, FINE * b)], fill="black", width=FINE)
+    if curve:
+        pen.line([(FINE * a, FINE * b) for a, b in (place(*q) for q in curve)], fill=colour, width=width * FINE)
     for i, (x, y) in enumerate(points):
         a, b = (FINE * q for q in place(x, y))
         if bars:
@@ -121,6 +123,17 @@ class Command(unittest.TestCase):
             self.assertAlmostEqual(math.log10(float(row[3])), 2 * y, delta=0.01)
             # Half a pixel of 240 over two decades, at most.
             self.assertLess(float(row[4]) / float(row[3]), 0.02)
+
+    def test_a_curve_of_their_ink_that_nobody_asked_for_does_not_draw_markers_over(self):
+        way = [(0.1 * i, 0.3 + 0.4 * math.sin(0.3 * (i - 1))) for i in range(11)]
+        points = way[1:-1]
+        draw(self.at("fig.png"), points, curve=[(x, y + 0.022) for x, y in way])  # over their upper edges
+        self.assertEqual(self.run_it('image = "fig.png"\n' + X + Y + SERIES).returncode, 0)
+        rows = self.rows()[1:]
+        self.assertEqual(len(rows), len(points))
+        for row, (x, y) in zip(rows, points):
+            self.assertAlmostEqual(float(row[1]), x, delta=0.003)
+            self.assertAlmostEqual(float(row[3]), y, delta=0.003)
 
     def test_a_turned_scan(self):
         draw(self.at("fig.png"), turn=2.0)
