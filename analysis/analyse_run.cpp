@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cmath>
 #include <optional>
-#include <thread>
 
 #include "analysis/fluctuations.hpp"
 #include "analysis/gas_run.hpp"
