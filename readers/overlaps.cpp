@@ -48,11 +48,12 @@ class Level {
     const auto ball = [&](std::size_t row) {
       return Ball{s.x[row], s.y[row], s.z[row], s.radius[row], row};
     };
-    for (const auto row : rows) ++starts_[bucket(cell_of(ball(row))) + 1];
+    // Where each bucket ends, counted down to where it begins: no second list of them.
+    for (const auto row : rows) ++starts_[bucket(cell_of(ball(row)))];
     std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
     balls_.resize(rows.size());
-    auto next = starts_;
-    for (const auto row : rows) balls_[next[bucket(cell_of(ball(row)))]++] = ball(row);
+    for (auto row = rows.rbegin(); row != rows.rend(); ++row)
+      balls_[--starts_[bucket(cell_of(ball(*row)))]] = ball(*row);
   }
 
   const std::vector<Ball>& balls() const { return balls_; }

@@ -218,7 +218,12 @@ class RowSurvey {
     }
   }
 
+  /// Last of all: the search takes as much memory as the columns, and those that it does not look
+  /// at make room for it.
   void add_overlaps(std::size_t i) {
+    for (std::size_t k = Columns::vx; k < snapshot_.columns.size(); ++k)
+      if (k != Columns::radius && k != columns_.body)
+        std::vector<double>().swap(snapshot_.columns[k]);
     Spheres spheres{column(0), column(1), column(2), column(Columns::radius), {}};
     if (columns_.body > 0) spheres.body = column(columns_.body);
     const auto here = find_overlaps(spheres);
