@@ -10,6 +10,7 @@ import math
 import os
 import re
 import shutil
+import stat
 import subprocess
 import sys
 import tempfile
@@ -195,6 +196,14 @@ class BadInput(Case):
         self.refused("scale", SCENES + "riser/scene.toml", "--factor", "-1", "--condition", "b")
         self.refused("scale", SCENES + "riser/scene.toml", "--factor", "2", "--condition", "e")
         self.refused("make", SCENES + "riser/scene.toml")
+
+    def test_a_scaled_scene_replaces_nothing_but_a_file(self):
+        pipe = self.folder + "/pipe"
+        os.mkfifo(pipe)
+        text = self.refused("scale", SCENES + "riser/scene.toml", "--factor", "2", "--condition", "b", "-o", pipe)
+        self.assertIn("pipe: not a regular file", text)
+        self.assertEqual(os.listdir(self.folder), ["pipe"])
+        self.assertTrue(stat.S_ISFIFO(os.stat(pipe).st_mode))
 
 
 class Decks(Case):
