@@ -9,6 +9,7 @@
 #include <set>
 
 #include "analysis/analyse_run.hpp"
+#include "analysis/choice_cost.hpp"
 #include "analysis/choice_sums.hpp"
 #include "analysis/output_file.hpp"
 #include "app/commands.hpp"
