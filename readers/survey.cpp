@@ -8,18 +8,9 @@
 #include "readers/columns.hpp"
 
 namespace bedscope::readers {
-namespace {
-
-constexpr std::size_t sample = 10;
-
-}  // namespace
-
 std::vector<std::size_t> chosen_snapshots(std::size_t count, bool full) {
-  std::vector<std::size_t> chosen;
-  const std::size_t picks = full ? count : std::min(count, sample);
-  for (std::size_t k = 0; k < picks; ++k)
-    chosen.push_back(picks == 1 ? 0 : k * (count - 1) / (picks - 1));
-  return chosen;
+  constexpr std::size_t sample = 10;
+  return evenly_spread(count, full ? count : sample);
 }
 
 namespace {
