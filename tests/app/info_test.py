@@ -184,6 +184,8 @@ class StudyFile(Info):
     def test_names_with_quotes_blanks_and_patterns(self):
         self.post(name='a "b" c')
         self.assertIn('particles = "a \\"b\\" c/dump*"', self.study('a "b" c/dump*'))
+        self.post(name="tab\tdel\x7f")
+        self.assertIn('particles = "tab\\u0009del\\u007f"', self.study("tab\tdel\x7f"))
 
     def test_takes_radii_from_the_log_where_the_dumps_have_none(self):
         self.write("log.liggghts", LOG)
