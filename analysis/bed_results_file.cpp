@@ -15,6 +15,7 @@ void write_profile(Hdf5Group group, const std::vector<BubbleBand>& bands) {
   group.write("band", numbers(bands, &BubbleBand::width), "m");
   const auto write = [&](const char* name, Estimate BubbleBand::*member, const char* unit) {
     std::vector<Estimate> curve;
+    curve.reserve(bands.size());
     for (const BubbleBand& band : bands) curve.push_back(band.*member);
     write_curve(group, name, curve, unit);
   };

@@ -52,8 +52,8 @@ class Level {
     for (const auto row : rows) ++starts_[bucket(cell_of(ball(row)))];
     std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
     balls_.resize(rows.size());
-    for (auto row = rows.rbegin(); row != rows.rend(); ++row)
-      balls_[--starts_[bucket(cell_of(ball(*row)))]] = ball(*row);
+    for (std::size_t n = rows.size(); n-- > 0;)
+      balls_[--starts_[bucket(cell_of(ball(rows[n])))]] = ball(rows[n]);
   }
 
   const std::vector<Ball>& balls() const { return balls_; }
