@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cmath>
 #include <optional>
-#include <thread>
 
 #include "analysis/fluctuations.hpp"
 #include "analysis/gas_run.hpp"
@@ -67,10 +66,9 @@ IndexRange window_of(const RunSetup& setup) {
 std::vector<Frame> choose_frames(const RunSetup& setup, const readers::Series& series,
                                  const Window& window, const KeptRun& kept) {
   std::vector<Frame> frames;
-  const auto count = std::min(window.snapshots, most_frames);
   Item item;
-  for (std::size_t k = 0; k < count; ++k) {
-    const auto i = window.first + (count == 1 ? 0 : k * (window.snapshots - 1) / (count - 1));
+  for (const auto place : readers::evenly_spread(window.snapshots, most_frames)) {
+    const auto i = window.first + place;
     const auto found = std::find_if(kept.frames.begin(), kept.frames.end(),
                                     [i](const Frame& frame) { return frame.snapshot == i; });
     if (found != kept.frames.end()) {

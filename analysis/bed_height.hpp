@@ -25,7 +25,9 @@ void archive(Archive& ar, BedHeights& heights) {
 /// by_solids: the solids spread evenly within a layer.
 /// surface: the top of the highest layer with more than half of the holdup that the solids see on
 /// average, sum phi^2 / sum phi, which does not depend on the room above the bed; between the
-/// middle of that layer and of the next the holdup is taken as linear.
+/// middle of that layer and of the next the holdup is taken as linear. Above the domain it counts
+/// as 0: a bed that reaches its top has its surface in the upper half of the top layer, at most at
+/// the top itself.
 BedHeights bed_heights(const Grid& grid, std::span<const double> layers);
 
 }  // namespace bedscope::analysis

@@ -3,20 +3,14 @@
 
 #include <fmt/ranges.h>
 
-#include <algorithm>
-#include <functional>
-#include <limits>
+#include <cstdint>
 
 #include "analysis/bubbles.hpp"
 #include "analysis/csv.hpp"
-#include "analysis/output_file.hpp"
+#include "analysis/table_parts.hpp"
 
 namespace bedscope::analysis {
 namespace {
-
-double shown_time(const RunResult& run, double time) {
-  return run.time_known ? time : std::numeric_limits<double>::quiet_NaN();
-}
 
 void write_bed_height(std::span<const RunResult> runs, const std::filesystem::path& path) {
   CsvWriter table(path,
@@ -84,85 +78,17 @@ void write_fluctuation(std::span<const RunResult> runs, const std::filesystem::p
   table.commit();
 }
 
-template <class Row, class Member>
-std::vector<double> numbers(const std::vector<Row>& rows, Member member) {
-  std::vector<double> result;
-  for (const Row& row : rows) result.push_back(std::invoke(member, row));
-  return result;
-}
-
-void write_profile(Hdf5Group group, const std::vector<BubbleBand>& bands) {
-  group.write("height", numbers(bands, &BubbleBand::height), "m");
-  group.write("band", numbers(bands, &BubbleBand::width), "m");
-  const auto write = [&](const std::string& name, Estimate BubbleBand::*member, const char* unit) {
-    group.write(name, numbers(bands, [&](const auto& band) { return (band.*member).value; }), unit);
-    group.write(name + "_ci95",
-                numbers(bands, [&](const auto& band) { return (band.*member).ci95; }), unit);
-  };
-  write("bubbles", &BubbleBand::number, "-");
-  write("diameter", &BubbleBand::diameter, "m");
-  write("velocity_z", &BubbleBand::velocity, "m/s");
-  write("frequency", &BubbleBand::frequency, "1/s");
-  write("area_fraction", &BubbleBand::area_fraction, "-");
-}
-
-void write_fluctuation_group(Hdf5Group group, const Fluctuation& one) {
-  group.attribute("signal", one.signal);
-  group.attribute("unit", one.unit);
-  const auto write = [&](const char* name, const Estimate& estimate, const std::string& unit) {
-    group.write(name, std::array{estimate.value, estimate.ci95}, unit);
-  };
-  write("mean", one.mean, one.unit);
-  write("std", one.deviation, one.unit);
-  write("dominant_frequency", one.dominant, "Hz");
-  group.attribute("segments", static_cast<std::int64_t>(one.spectrum.segments));
-  group.attribute("degrees_of_freedom", one.spectrum.degrees_of_freedom);
-  if (one.spectrum.frequency.empty()) return;
-  const std::string density = one.unit == "-" ? "1/Hz" : one.unit + "2/Hz";
-  group.write("frequency", one.spectrum.frequency, "Hz");
-  group.write("psd", one.spectrum.density, density);
-  group.write("psd_lo", one.spectrum.low, density);
-  group.write("psd_hi", one.spectrum.high, density);
-}
-
 }  // namespace
 
 void write_bed_tables(std::span<const RunResult> runs, const std::filesystem::path& folder) {
-  const auto table = [&](const char* name, auto&& has, auto&& write) {
-    const auto path = folder / name;
-    std::any_of(runs.begin(), runs.end(), has) ? write(runs, path) : remove_file(path);
-  };
   const auto bed = [](const RunResult& run) { return !run.bed.samples.empty(); };
   const auto bubbles = [](const RunResult& run) { return run.bubbles.has_value(); };
   const auto signals = [](const RunResult& run) { return !run.fluctuations.empty(); };
-  table("bed_height.csv", bed, write_bed_height);
-  table("bubbles.csv", bubbles, write_bubbles);
-  table("bubble_profile.csv", bubbles, write_bubble_profile);
-  table("spectrum.csv", signals, write_spectrum);
-  table("fluctuation.csv", signals, write_fluctuation);
-}
-
-void write_bed_groups(Hdf5Group& group, const RunResult& run) {
-  if (!run.bed.samples.empty()) {
-    Hdf5Group bed = group.group("bed_height");
-    const auto write = [&](const char* name, double BedHeightSample::*member, const char* unit) {
-      bed.write(name, numbers(run.bed.samples, member), unit);
-    };
-    bed.attribute("at_rest", run.bed.at_rest);
-    bed.write(
-        "time",
-        numbers(run.bed.samples, [&](const auto& sample) { return shown_time(run, sample.time); }),
-        "s");
-    write("height", &BedHeightSample::by_centre, "m");
-    write("height_solids", &BedHeightSample::by_solids, "m");
-    write("height_surface", &BedHeightSample::surface, "m");
-    write("expansion", &BedHeightSample::expansion, "-");
-  }
-  if (run.bubbles) write_profile(group.group("bubble_profile"), run.bubbles->bands);
-  if (run.fluctuations.empty()) return;
-  Hdf5Group all = group.group("fluctuations");
-  for (std::size_t i = 0; i < run.fluctuations.size(); ++i)
-    write_fluctuation_group(all.group(std::to_string(i + 1)), run.fluctuations[i]);
+  write_or_remove(runs, folder / "bed_height.csv", bed, write_bed_height);
+  write_or_remove(runs, folder / "bubbles.csv", bubbles, write_bubbles);
+  write_or_remove(runs, folder / "bubble_profile.csv", bubbles, write_bubble_profile);
+  write_or_remove(runs, folder / "spectrum.csv", signals, write_spectrum);
+  write_or_remove(runs, folder / "fluctuation.csv", signals, write_fluctuation);
 }
 
 }  // namespace bedscope::analysis

@@ -90,22 +90,4 @@ ChoiceSums sum_choices(const readers::Series& series, const std::vector<RunSetup
                        const std::vector<int>& everies, int threads,
                        const ChoiceProgress& progress);
 
-/// What analysing one snapshot takes, in the mean.
-struct ChoiceCost {
-  double read = 0;      ///< CPU time to read it [s]
-  double products = 0;  ///< CPU time to map it and to sum [s]
-  double bytes = 0;     ///< read from disk
-};
-
-/// Of each variant: times some snapshots of the window, one after the other on one thread, each
-/// `repeats` times of which the fastest counts. For other forms of dumps these snapshots are
-/// written to a temporary folder and read from there. Throws FileError.
-std::vector<ChoiceCost> time_choices(const readers::Series& series,
-                                     const std::vector<RunSetup>& setups,
-                                     const std::vector<Variant>& variants, const Window& window,
-                                     std::size_t snapshots = 8, int repeats = 3);
-
-/// CPU time of this thread [s].
-double cpu_seconds();
-
 }  // namespace bedscope::analysis

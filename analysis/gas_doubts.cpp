@@ -98,12 +98,13 @@ void GasRun::tell_shift(const readers::Series& particles, RunResult& result) con
   }
   const auto middle = static_cast<std::size_t>(furthest);
   std::vector<double> squares(2 * middle + 1), shifts(2 * middle + 1);
-  const std::size_t count = std::min(snapshots.size(), most_tried);
+  const auto tried = readers::evenly_spread(snapshots.size(), most_tried);
+  const auto count = static_cast<double>(tried.size());
   SnapshotProduct product;
   ProductScratch scratch;
   GasScratch gas_scratch;
-  for (std::size_t k = 0; k < count; ++k) {
-    const auto i = snapshots[count == 1 ? 0 : k * (snapshots.size() - 1) / (count - 1)];
+  for (const auto place : tried) {
+    const auto i = snapshots[place];
     analysis::make_product(*run_, particles, i, product, scratch);
     for (std::ptrdiff_t s = -furthest; s <= furthest; ++s) {
       const auto n = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(gas_of_[i]) + s);
@@ -111,8 +112,7 @@ void GasRun::tell_shift(const readers::Series& particles, RunResult& result) con
       source_->make_check(product, places_[n], check, gas_scratch);
       squares[static_cast<std::size_t>(s + furthest)] +=
           check.rms_difference * check.rms_difference;
-      shifts[static_cast<std::size_t>(s + furthest)] +=
-          (times_[n] - times_[gas_of_[i]]) / static_cast<double>(count);
+      shifts[static_cast<std::size_t>(s + furthest)] += (times_[n] - times_[gas_of_[i]]) / count;
     }
   }
   const auto best =
@@ -122,8 +122,7 @@ void GasRun::tell_shift(const readers::Series& particles, RunResult& result) con
         "gas: the fields fit the particles best {:.3g} s {} (rms difference {:.2g} instead of "
         "{:.2g}): step_zero or time_step?",
         std::abs(shifts[best]), shifts[best] > 0 ? "later" : "earlier",
-        std::sqrt(squares[best] / static_cast<double>(count)),
-        std::sqrt(squares[middle] / static_cast<double>(count))));
+        std::sqrt(squares[best] / count), std::sqrt(squares[middle] / count)));
   else if (const auto n = static_cast<double>(checks_.size()); rms > fair_difference * spread)
     result.problems.push_back(
         fmt::format("gas: voidage and particles differ by {:.2g} (rms), where the holdup's own "

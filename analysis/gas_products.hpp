@@ -47,7 +47,7 @@ struct JudgedCheck : VoidageCheck {
 
 struct GasScratch {
   readers::FieldValues voidage, velocity, temperature, pressure;
-  std::vector<double> holdup, on_mesh;
+  std::vector<double> holdup;
 };
 
 /// All that is constant while the gas of a run is read.

@@ -1,50 +1,37 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "analysis/gas_results_file.hpp"
 
-#include <algorithm>
-#include <functional>
 #include <string>
+
+#include "analysis/hdf5_rows.hpp"
 
 namespace bedscope::analysis {
 namespace {
 
-template <class Row, class Member>
-std::vector<double> column(const std::vector<Row>& rows, Member member) {
-  std::vector<double> values(rows.size());
-  std::transform(rows.begin(), rows.end(), values.begin(),
-                 [&](const Row& row) { return static_cast<double>(std::invoke(member, row)); });
-  return values;
-}
-
 void write_profile(Hdf5Group group, const GasProfile& profile, const char* coordinate) {
   group.write(coordinate, profile.coordinate, "m");
-  const auto write = [&](const std::string& name, const std::vector<Estimate>& curve,
-                         const char* unit) {
-    group.write(name, column(curve, &Estimate::value), unit);
-    group.write(name + "_ci95", column(curve, &Estimate::ci95), unit);
-  };
-  write("voidage", profile.voidage, "-");
-  write("velocity_z", profile.velocity_z, "m/s");
-  write("temperature", profile.temperature, "K");
-  write("pressure", profile.pressure, "Pa");
-  write("slip_z", profile.slip_z, "m/s");
+  write_curve(group, "voidage", profile.voidage, "-");
+  write_curve(group, "velocity_z", profile.velocity_z, "m/s");
+  write_curve(group, "temperature", profile.temperature, "K");
+  write_curve(group, "pressure", profile.pressure, "Pa");
+  write_curve(group, "slip_z", profile.slip_z, "m/s");
 }
 
 void write_checks(Hdf5Group group, const std::vector<VoidageCheck>& rows) {
-  group.write("time", column(rows, &VoidageCheck::time), "s");
-  group.write("solids_volume_particles", column(rows, &VoidageCheck::solids_volume), "m3");
-  group.write("solids_volume_gas", column(rows, &VoidageCheck::gas_side_volume), "m3");
-  group.write("ratio", column(rows, &VoidageCheck::ratio), "-");
-  group.write("mean_difference", column(rows, &VoidageCheck::mean_difference), "-");
-  group.write("rms_difference", column(rows, &VoidageCheck::rms_difference), "-");
-  group.write("largest_difference", column(rows, &VoidageCheck::largest_difference), "-");
-  group.write("cells", column(rows, &VoidageCheck::cells), "");
+  group.write("time", numbers(rows, &VoidageCheck::time), "s");
+  group.write("solids_volume_particles", numbers(rows, &VoidageCheck::solids_volume), "m3");
+  group.write("solids_volume_gas", numbers(rows, &VoidageCheck::gas_side_volume), "m3");
+  group.write("ratio", numbers(rows, &VoidageCheck::ratio), "-");
+  group.write("mean_difference", numbers(rows, &VoidageCheck::mean_difference), "-");
+  group.write("rms_difference", numbers(rows, &VoidageCheck::rms_difference), "-");
+  group.write("largest_difference", numbers(rows, &VoidageCheck::largest_difference), "-");
+  group.write("cells", numbers(rows, &VoidageCheck::cells), "");
 }
 
 void write_pressure(Hdf5Group group, const std::vector<PressureSample>& rows) {
-  group.write("time", column(rows, &PressureSample::time), "s");
-  group.write("pressure_drop", column(rows, &PressureSample::drop), "Pa");
-  group.write("bed_weight_over_area", column(rows, &PressureSample::weight_by_area), "Pa");
+  group.write("time", numbers(rows, &PressureSample::time), "s");
+  group.write("pressure_drop", numbers(rows, &PressureSample::drop), "Pa");
+  group.write("bed_weight_over_area", numbers(rows, &PressureSample::weight_by_area), "Pa");
 }
 
 }  // namespace
@@ -67,11 +54,8 @@ void write_gas_group(Hdf5Group group, const RunResult& run, const Shape& shape) 
       fields.write(field.name, gas.fields.*field.values, field.unit, shape);
   write_checks(group.group("voidage_check"), gas.checks);
   if (gas.has_pressure) write_pressure(group.group("pressure_drop"), gas.pressure);
-  const auto estimate = [&](const char* name, const Estimate& value, const char* unit) {
-    group.write(name, std::array{value.value, value.ci95}, unit);
-  };
-  estimate("mean_voidage_ratio", gas.voidage_ratio, "-");
-  estimate("mean_pressure_drop", gas.pressure_drop, "Pa");
+  write_estimate(group, "mean_voidage_ratio", gas.voidage_ratio, "-");
+  write_estimate(group, "mean_pressure_drop", gas.pressure_drop, "Pa");
   group.write("mean_bed_weight_over_area", std::array{gas.bed_weight_by_area}, "Pa");
 }
 

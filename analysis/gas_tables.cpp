@@ -3,11 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdint>
 
 #include "analysis/csv.hpp"
-#include "analysis/output_file.hpp"
+#include "analysis/table_parts.hpp"
 
 namespace bedscope::analysis {
 namespace {
@@ -61,19 +60,12 @@ void write_pressure(std::span<const RunResult> runs, const std::filesystem::path
 }  // namespace
 
 void write_gas_tables(std::span<const RunResult> runs, const std::filesystem::path& folder) {
-  const auto write_or_remove = [&](const char* name, bool wanted, auto&& write) {
-    if (wanted)
-      write(runs, folder / name);
-    else
-      remove_file(folder / name);
-  };
-  const auto any = [&](auto&& of) { return std::any_of(runs.begin(), runs.end(), of); };
-  const bool gas = any([](const RunResult& run) { return run.gas.present; });
-  write_or_remove("gas_axial.csv", gas, write_axial);
-  write_or_remove("gas_lateral.csv", gas, write_lateral);
-  write_or_remove("voidage_check.csv", gas, write_checks);
-  write_or_remove("pressure_drop.csv",
-                  any([](const RunResult& run) { return run.gas.has_pressure; }), write_pressure);
+  const auto gas = [](const RunResult& run) { return run.gas.present; };
+  const auto pressure = [](const RunResult& run) { return run.gas.has_pressure; };
+  write_or_remove(runs, folder / "gas_axial.csv", gas, write_axial);
+  write_or_remove(runs, folder / "gas_lateral.csv", gas, write_lateral);
+  write_or_remove(runs, folder / "voidage_check.csv", gas, write_checks);
+  write_or_remove(runs, folder / "pressure_drop.csv", pressure, write_pressure);
 }
 
 }  // namespace bedscope::analysis

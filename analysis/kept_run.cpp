@@ -12,34 +12,35 @@ namespace {
 
 constexpr std::string_view kind = "bedscope state of a run, version 2\n";
 
-/// The names make the compiler ask about each setting that is added.
+/// Settings by their names, as most have a neighbour of the same type. Left out are those that only
+/// decide which dumps, their times or their weights: these are compared themselves; the label; and
+/// what is made of the sums or beside them: spectra, probes and gas.
 template <class Archive>
-void archive_settings(Archive& ar, RunSettings& settings) {
-  auto& [label, particles, every, repeated, wanted, columns, time_step, time_required, step_zero,
-         domain, up_axis, lateral_axis, cell, cells, periodic, density, radius, species, average,
-         mapping, gaussian_width, heights, band, clusters, bubbles, bed, spectra, height_at_rest,
-         segment, probes, temperature_column, temperature, temperature_bins, gas] = settings;
-  // Not those that only decide which dumps, their times or their weights: these are compared
-  // themselves. Not the label, nor what is made of the sums or beside them: spectra and gas.
-  ar(repeated, every, wanted, columns, domain, up_axis, lateral_axis, cell, cells, periodic,
-     density, radius, species, mapping, gaussian_width, heights, band, clusters, bubbles, bed,
-     height_at_rest, temperature_column, temperature, temperature_bins);
-  bool automatic = !average;
+void archive_settings(Archive& ar, RunSettings& s) {
+  ar(s.repeated, s.every, s.wanted, s.columns, s.domain, s.up, s.lateral, s.cell, s.cells,
+     s.periodic, s.density, s.radius, s.species, s.mapping, s.gaussian_width, s.heights, s.band,
+     s.clusters, s.bubbles, s.bed, s.height_at_rest, s.temperature_column, s.temperature,
+     s.temperature_bins);
+  bool automatic = !s.average;
   ar(automatic);
+  // A name for each member, so that the compiler asks here about one that is added.
+  [[maybe_unused]] const auto& [label, particles, every, repeated, wanted, columns, time_step,
+                                time_required, step_zero, domain, up_axis, lateral_axis, cell,
+                                cells, periodic, density, radius, species, average, mapping,
+                                gaussian_width, heights, band, clusters, bubbles, bed, spectra,
+                                height_at_rest, segment, probes, temperature_column, temperature,
+                                temperature_bins, gas] = s;
 }
 
+/// What the dumps made of the settings. The rest follows from these, or is compared itself.
 template <class Archive>
-void archive_setup(Archive& ar, RunSetup& setup) {
-  auto& [settings, grid, kernel, request, request_without_id, domain_assumed, has_velocity,
-         radius_in_dumps, has_temperature, times, time_known, time_step, half_step, density_from,
-         density, heights, band, band_weights, bubble_bands, problems] = setup;
-  archive_settings(ar, settings);
-  auto& [min, max, cells, periodic] = grid;
-  ar(min, max, cells, periodic);
-  for (auto& column : request) ar(column.name, column.required);
-  ar(domain_assumed, has_velocity, radius_in_dumps, has_temperature, time_known, density_from,
-     density, heights, band, band_weights);
-  for (auto& [height, width, weights] : bubble_bands) ar(height, width, weights);
+void archive_setup(Archive& ar, RunSetup& s) {
+  archive_settings(ar, s.settings);
+  ar(s.grid.min, s.grid.max, s.grid.cells, s.grid.periodic);
+  for (auto& column : s.request) ar(column.name, column.required);
+  ar(s.domain_assumed, s.has_velocity, s.radius_in_dumps, s.has_temperature, s.time_known,
+     s.density_from, s.density, s.heights, s.band, s.band_weights);
+  for (auto& band : s.bubble_bands) ar(band.height, band.width, band.weights);
 }
 
 }  // namespace

@@ -24,15 +24,9 @@ namespace fs = std::filesystem;
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double even = 1e-4;  // of a cell: coordinates printed with six digits pass on 600 cells
 
-constexpr std::string_view table_names[] = {
-    "axial_profile.csv", "lateral_profile.csv",   "inventory.csv",          "clusters.csv",
-    "temperature.csv",   "temperature_axial.csv", "cluster_occurrence.csv", "temperature_pdf.csv",
-    "bed_height.csv",    "bubbles.csv",           "bubble_profile.csv",     "fluctuation.csv",
-    "gas_axial.csv",     "gas_lateral.csv",       "pressure_drop.csv",      "series.csv"};
-
 // Which rows to take: those of `label`, or all where there is one run only.
-std::optional<std::string> chosen_run(const std::vector<fs::path>& tables, const fs::path& folder,
-                                      const std::string& label) {
+RunName chosen_run(const std::vector<fs::path>& tables, const fs::path& folder,
+                   const std::string& label) {
   std::set<std::string, std::less<>> names;
   for (const fs::path& path : tables) {
     CsvReader rows(path);
@@ -100,7 +94,7 @@ void fill_profiles(const fs::path& path, std::vector<ProfileRow> rows, ProfileOf
   }
 }
 
-void read_axial(const fs::path& path, const std::optional<std::string>& run_name, RunResult& run) {
+void read_axial(const fs::path& path, const RunName& run_name, RunResult& run) {
   RunRows table(path, run_name);
   auto rows = profile_rows(table, "z [m]", false);
   for (const ProfileRow& row : rows) species_of(run, row.type);  // types in the table's order
@@ -108,8 +102,7 @@ void read_axial(const fs::path& path, const std::optional<std::string>& run_name
                 [&](const ProfileRow& row) -> Profile& { return species_of(run, row.type).axial; });
 }
 
-void read_lateral(const fs::path& path, const std::optional<std::string>& run_name,
-                  RunResult& run) {
+void read_lateral(const fs::path& path, const RunName& run_name, RunResult& run) {
   RunRows table(path, run_name);
   auto rows = profile_rows(table, "x [m]", true);
   for (const ProfileRow& row : rows) {
@@ -125,8 +118,7 @@ void read_lateral(const fs::path& path, const std::optional<std::string>& run_na
   });
 }
 
-void read_inventory(const fs::path& path, const std::optional<std::string>& run_name,
-                    RunResult& run) {
+void read_inventory(const fs::path& path, const RunName& run_name, RunResult& run) {
   RunRows table(path, run_name);
   const std::size_t time = table.needed("time [s]"), particles = table.needed("particles");
   const auto mass = table.column("solids_mass [kg]"), holdup = table.column("holdup [-]"),
@@ -138,8 +130,7 @@ void read_inventory(const fs::path& path, const std::optional<std::string>& run_
   }
 }
 
-void read_occurrence(const fs::path& path, const std::optional<std::string>& run_name,
-                     RunResult& run) {
+void read_occurrence(const fs::path& path, const RunName& run_name, RunResult& run) {
   RunRows table(path, run_name);
   const std::size_t time = table.needed("time [s]"), clusters = table.needed("clusters");
   const auto area = table.column("area_fraction [-]");
@@ -202,8 +193,7 @@ class SnapshotOf {
   std::size_t group_ = 0, found_ = 0;
 };
 
-void read_clusters(const fs::path& path, const std::optional<std::string>& run_name,
-                   RunResult& run) {
+void read_clusters(const fs::path& path, const RunName& run_name, RunResult& run) {
   RunRows table(path, run_name);
   const std::size_t time = table.needed("time [s]"), x = table.needed("x [m]"),
                     z = table.needed("z [m]");
@@ -239,8 +229,7 @@ void read_clusters(const fs::path& path, const std::optional<std::string>& run_n
   }
 }
 
-void read_temperature(const fs::path& path, const std::optional<std::string>& run_name,
-                      RunResult& run) {
+void read_temperature(const fs::path& path, const RunName& run_name, RunResult& run) {
   RunRows table(path, run_name);
   const std::size_t time = table.needed("time [s]"), mean = table.needed("mean [K]");
   const auto deviation = table.column("std [K]"), least = table.column("min [K]"),
@@ -252,7 +241,7 @@ void read_temperature(const fs::path& path, const std::optional<std::string>& ru
   }
 }
 
-void read_series(const fs::path& path, const std::optional<std::string>& run_name, RunResult& run) {
+void read_series(const fs::path& path, const RunName& run_name, RunResult& run) {
   RunRows table(path, run_name);
   const std::size_t name = table.needed("series"), unit = table.needed("unit"),
                     time = table.needed("time [s]"), value = table.needed("value");
@@ -273,8 +262,7 @@ void read_series(const fs::path& path, const std::optional<std::string>& run_nam
 }
 
 // Into the layers of axial_profile.csv, or where a species has none there into its own.
-void read_axial_temperature(const fs::path& path, const std::optional<std::string>& run_name,
-                            RunResult& run) {
+void read_axial_temperature(const fs::path& path, const RunName& run_name, RunResult& run) {
   RunRows table(path, run_name);
   const std::size_t z = table.needed("z [m]");
   table.needed("temperature [K]");
@@ -301,8 +289,7 @@ void read_axial_temperature(const fs::path& path, const std::optional<std::strin
 }
 
 // A PDF is stored without its bins, n equal ones from 0 to 1: so must those of the table be.
-void read_temperature_pdf(const fs::path& path, const std::optional<std::string>& run_name,
-                          RunResult& run) {
+void read_temperature_pdf(const fs::path& path, const RunName& run_name, RunResult& run) {
   RunRows table(path, run_name);
   const std::size_t centre = table.needed("bin_centre [-]");
   table.needed("probability_density [-]");
@@ -332,6 +319,30 @@ void read_temperature_pdf(const fs::path& path, const std::optional<std::string>
             path.string(), bins[i].line, expected, bins.size(), bins[i].centre);
     }
 }
+
+struct TableReader {
+  const char* name;
+  void (*read)(const fs::path& path, const RunName& run_name, RunResult& run);
+};
+
+// In the order in which they are read: clusters need the times of the occurrence, the axial
+// temperature the layers of the axial profile.
+constexpr TableReader table_readers[] = {{"axial_profile.csv", read_axial},
+                                         {"lateral_profile.csv", read_lateral},
+                                         {"inventory.csv", read_inventory},
+                                         {"cluster_occurrence.csv", read_occurrence},
+                                         {"clusters.csv", read_clusters},
+                                         {"temperature.csv", read_temperature},
+                                         {"temperature_axial.csv", read_axial_temperature},
+                                         {"temperature_pdf.csv", read_temperature_pdf},
+                                         {"bed_height.csv", read_bed_height},
+                                         {"bubbles.csv", read_bubbles},
+                                         {"bubble_profile.csv", read_bubble_profile},
+                                         {"fluctuation.csv", read_fluctuation},
+                                         {"gas_axial.csv", read_gas_axial},
+                                         {"gas_lateral.csv", read_gas_lateral},
+                                         {"pressure_drop.csv", read_pressure_drop},
+                                         {"series.csv", read_series}};
 
 // One axis of the grid from the cell centres of a profile.
 void set_axis(RunResult& run, Axis axis, const std::vector<double>& centres) {
@@ -395,8 +406,8 @@ RunResult read_tables(const fs::path& folder, const std::string& label) {
   const auto tables_in = [](const fs::path& place) {
     std::vector<fs::path> found;
     std::error_code ignored;
-    for (const std::string_view name : table_names)
-      if (fs::exists(place / name, ignored)) found.push_back(place / name);
+    for (const TableReader& table : table_readers)
+      if (fs::exists(place / table.name, ignored)) found.push_back(place / table.name);
     return found;
   };
   fs::path place = folder;
@@ -405,33 +416,16 @@ RunResult read_tables(const fs::path& folder, const std::string& label) {
   if (tables.empty())
     throw InputError("{}: expected tables such as axial_profile.csv, found none", folder.string());
 
-  const std::optional<std::string> run_name = chosen_run(tables, folder, label);
+  const RunName run_name = chosen_run(tables, folder, label);
   RunResult run;
   run.label = label;
   run.mapping = "unknown";
   run.window = {not_a_number, not_a_number, 0, 0, false, true};
   run.temperature_from = run.temperature_to = not_a_number;
   run.independent_samples = run.outside_fraction = run.band = not_a_number;
-  const auto read = [&](std::string_view name, auto reader) {
-    const fs::path path = place / name;
-    if (std::find(tables.begin(), tables.end(), path) != tables.end()) reader(path, run_name, run);
-  };
-  read("axial_profile.csv", read_axial);
-  read("lateral_profile.csv", read_lateral);
-  read("inventory.csv", read_inventory);
-  read("cluster_occurrence.csv", read_occurrence);
-  read("clusters.csv", read_clusters);  // needs the occurrence's times
-  read("temperature.csv", read_temperature);
-  read("temperature_axial.csv", read_axial_temperature);
-  read("temperature_pdf.csv", read_temperature_pdf);
-  read("bed_height.csv", read_bed_height);
-  read("bubbles.csv", read_bubbles);
-  read("bubble_profile.csv", read_bubble_profile);
-  read("fluctuation.csv", read_fluctuation);
-  read("gas_axial.csv", read_gas_axial);
-  read("gas_lateral.csv", read_gas_lateral);
-  read("pressure_drop.csv", read_pressure_drop);
-  read("series.csv", read_series);
+  for (const TableReader& table : table_readers)
+    if (std::find(tables.begin(), tables.end(), place / table.name) != tables.end())
+      table.read(place / table.name, run_name, run);
   arrange(run);
   run.time_known = any_time(run);
   run.density_known = any_density(run);

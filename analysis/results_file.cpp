@@ -5,15 +5,15 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <vector>
 
-#include "analysis/bed_tables.hpp"
+#include "analysis/bed_results_file.hpp"
 #include "analysis/gas_results_file.hpp"
-#include "analysis/hdf5_file.hpp"
-#include "readers/error.hpp"
+#include "analysis/hdf5_rows.hpp"
+#include "analysis/output_file.hpp"
 
 namespace bedscope::analysis {
 namespace {
@@ -32,28 +32,11 @@ constexpr std::array<Field, 5> all_fields = {
      {"mass_flux_x", &MeanFields::mass_flux_x, "kg/m2/s"},
      {"mass_flux_z", &MeanFields::mass_flux_z, "kg/m2/s"}}};
 
-// A member of each row, as numbers to write.
-template <class Row, class Member>
-std::vector<double> numbers(const std::vector<Row>& rows, Member member) {
-  std::vector<double> result(rows.size());
-  std::transform(rows.begin(), rows.end(), result.begin(),
-                 [&](const Row& row) { return std::invoke(member, row); });
-  return result;
-}
-
-template <class Row, class Member>
-std::vector<std::int64_t> wholes(const std::vector<Row>& rows, Member member) {
-  std::vector<std::int64_t> result(rows.size());
-  std::transform(rows.begin(), rows.end(), result.begin(), [&](const Row& row) {
-    return static_cast<std::int64_t>(std::invoke(member, row));
-  });
-  return result;
-}
-
-template <class Row>
-std::vector<double> times(const RunResult& run, const std::vector<Row>& rows) {
-  return run.time_known ? numbers(rows, &Row::time)
-                        : std::vector<double>(rows.size(), not_a_number);
+// A name that none of those taken is, and takes it.
+std::string free_name(std::string_view wanted, std::vector<std::string>& taken) {
+  std::string name = hdf5_name(wanted);
+  while (std::find(taken.begin(), taken.end(), name) != taken.end()) name += '_';
+  return taken.emplace_back(name);
 }
 
 template <class Row>
@@ -63,21 +46,11 @@ void write_types(Hdf5Group& group, const std::vector<Row>& rows) {
   group.write("type", types);
 }
 
-void write_estimate(Hdf5Group& group, const char* name, const Estimate& estimate,
-                    const char* unit) {
-  group.write(name, std::array{estimate.value, estimate.ci95}, unit);
-}
-
 void write_profile(Hdf5Group group, const Profile& profile, const char* coordinate) {
   group.write(coordinate, profile.coordinate, "m");
-  const auto write = [&](const std::string& name, const std::vector<Estimate>& curve,
-                         const char* unit) {
-    group.write(name, numbers(curve, &Estimate::value), unit);
-    group.write(name + "_ci95", numbers(curve, &Estimate::ci95), unit);
-  };
-  write("holdup", profile.holdup, "-");
-  write("velocity_z", profile.velocity_z, "m/s");
-  write("mass_flux_z", profile.mass_flux_z, "kg/m2/s");
+  write_curve(group, "holdup", profile.holdup, "-");
+  write_curve(group, "velocity_z", profile.velocity_z, "m/s");
+  write_curve(group, "mass_flux_z", profile.mass_flux_z, "kg/m2/s");
 }
 
 // [up][lateral], or [up][depth][lateral] of a 3-D grid.
@@ -145,7 +118,7 @@ void write_series(Hdf5Group& group, const RunResult& run) {
   Hdf5Group inventory = group.group("inventory");
   inventory.write("time", times(run, run.inventory), "s");
   write_types(inventory, run.inventory);
-  inventory.write("particles", wholes(run.inventory, &InventorySample::particles));
+  inventory.write("particles", numbers<std::int64_t>(run.inventory, &InventorySample::particles));
   std::vector<double> mass = numbers(run.inventory, &InventorySample::solids_mass);
   if (!run.density_known) std::fill(mass.begin(), mass.end(), not_a_number);
   inventory.write("solids_mass", mass, "kg");
@@ -154,7 +127,7 @@ void write_series(Hdf5Group& group, const RunResult& run) {
 
   Hdf5Group occurrence = group.group("occurrence");
   occurrence.write("time", times(run, run.occurrence), "s");
-  occurrence.write("clusters", wholes(run.occurrence, &OccurrenceSample::clusters));
+  occurrence.write("clusters", numbers<std::int64_t>(run.occurrence, &OccurrenceSample::clusters));
   occurrence.write("area_fraction", numbers(run.occurrence, &OccurrenceSample::area_fraction), "-");
 
   if (run.temperature.empty()) return;
@@ -174,10 +147,10 @@ void write_clusters(Hdf5Group group, const RunResult& run, const std::vector<Clu
   group.attribute("threshold", thresholds.threshold);
   group.attribute("core", thresholds.core);
   group.attribute("min_area", thresholds.min_area);
-  group.write("snapshot", wholes(rows, &Cluster::snapshot));
+  group.write("snapshot", numbers<std::int64_t>(rows, &Cluster::snapshot));
   group.write("time", times(run, rows), "s");
-  group.write("cluster", wholes(rows, &Cluster::cluster));
-  group.write("track", wholes(rows, &Cluster::track));
+  group.write("cluster", numbers<std::int64_t>(rows, &Cluster::cluster));
+  group.write("track", numbers<std::int64_t>(rows, &Cluster::track));
   group.write("x", numbers(rows, [](const Cluster& c) { return c.centre.x; }), "m");
   group.write("z", numbers(rows, [](const Cluster& c) { return c.centre.z; }), "m");
   group.write("area", numbers(rows, &Cluster::area), "m2");
@@ -220,7 +193,7 @@ void write_frames(Hdf5Group group, const RunResult& run) {
   std::vector<double> holdup;
   for (const Frame& frame : run.frames)
     holdup.insert(holdup.end(), frame.holdup.begin(), frame.holdup.end());
-  group.write("snapshot", wholes(run.frames, &Frame::snapshot));
+  group.write("snapshot", numbers<std::int64_t>(run.frames, &Frame::snapshot));
   group.write("time", times(run, run.frames), "s");
   group.write("holdup", holdup, "-", {run.frames.size(), nz, nx});
 }
@@ -232,10 +205,7 @@ void write_run(Hdf5Group group, const RunResult& run) {
   all_species.attribute("band", run.band);
   std::vector<std::string> taken;
   for (const SpeciesResult& species : run.species) {
-    std::string name = hdf5_name(species.type);
-    while (std::find(taken.begin(), taken.end(), name) != taken.end()) name += '_';
-    taken.push_back(name);
-    write_species(all_species.group(name), run, species);
+    write_species(all_species.group(free_name(species.type, taken)), run, species);
   }
   write_series(group, run);
   write_clusters(group.group("clusters"), run, run.clusters, run.thresholds);
@@ -291,10 +261,7 @@ void write_image(Hdf5Group group, std::span<const RunResult> runs,
     const auto write = [&](std::string name, const std::vector<double>& values, const char* unit) {
       if (values.size() != grid.size()) return;
       if (runs.size() > 1) name += " [" + runs[member].label + "]";
-      name = hdf5_name(name);
-      while (std::find(taken.begin(), taken.end(), name) != taken.end()) name += '_';
-      taken.push_back(name);
-      data.write(name, image_values(grid, values), unit, shape);
+      data.write(free_name(name, taken), image_values(grid, values), unit, shape);
     };
     for (const SpeciesResult& species : runs[member].species)
       for (const Field& field : all_fields)
@@ -353,9 +320,7 @@ void write_results_file(std::span<const RunResult> runs, const std::filesystem::
       return members.front() == i && &members != &images.front();
     });
     if (image == images.end()) {
-      std::error_code error;
-      std::filesystem::remove(beside(path, i), error);
-      if (error) throw FileError("{}: {}", beside(path, i).string(), error.message());
+      remove_file(beside(path, i));
       continue;
     }
     Hdf5File file(beside(path, i));

@@ -6,12 +6,14 @@
 #include <map>
 #include <numbers>
 
+#include "readers/flaws.hpp"
 #include "readers/series.hpp"
 
 namespace bedscope::analysis {
 namespace {
 
 constexpr double per_diameter_cubed = std::numbers::pi / 6;
+constexpr std::size_t most_looks = 10;  // snapshots
 
 struct Sums {
   double number = 0, cubes = 0, smallest = 0, largest = 0, mass = 0;
@@ -89,14 +91,13 @@ RunFacts facts_of_dumps(const RunSettings& settings) {
   readers::Scratch scratch;
   std::vector<double> speeds;
   std::map<int, Sums> last;
-  const std::size_t looks = std::min<std::size_t>(10, series.size());
-  for (std::size_t look = 0; look < looks; ++look) {
-    const auto i = looks == 1 ? 0 : look * (series.size() - 1) / (looks - 1);
+  const auto looks = readers::evenly_spread(series.size(), most_looks);
+  for (const auto i : looks) {
     series.read(i, request, snapshot, scratch);
     const auto& c = snapshot.columns;
     last.clear();
     for (std::size_t row = 0; row < snapshot.particles; ++row) {
-      const int type = static_cast<int>(value(c[0], row, 1));
+      const int type = readers::whole_type(value(c[0], row, 1));
       const double radius = value(c[1], row, settings.radius.at(type));
       const double d = std::isfinite(radius) ? 2 * radius : 0;
       const double volume = per_diameter_cubed * d * d * d;
@@ -114,9 +115,8 @@ RunFacts facts_of_dumps(const RunSettings& settings) {
   facts.impact_velocity = exceeded_by_one_in_a_hundred(speeds);
   facts.remarks.push_back(fmt::format(
       "sizes and numbers are those of the last of {} snapshots; particles are taken to meet at "
-      "{:.3g} "
-      "m/s, which one of a hundred exceeds relative to the mean velocity in {} snapshots",
-      series.size(), facts.impact_velocity, looks));
+      "{:.3g} m/s, which one of a hundred exceeds relative to the mean velocity in {} snapshots",
+      series.size(), facts.impact_velocity, looks.size()));
   return facts;
 }
 

@@ -295,8 +295,7 @@ void RunSums::means_of(const Window& window, RunResult& result) const {
     }
     mass.push_back(kilograms);
     if (moment > 0) heights.push_back(moment / sample.volume);
-    // A level bed of height H has its centre at H/2: H = 2 x mean height, whatever the surface
-    // does.
+    // A level bed of height H has its centre at H/2, whatever the surface does.
     bed.push_back(moment > 0 ? 1 - sample.volume / (area * 2 * moment / sample.volume) : 1);
   }
   const auto mean = estimate_mean(holdup, weights);

@@ -7,6 +7,7 @@
 
 #include "readers/columns.hpp"
 #include "readers/error.hpp"
+#include "readers/flaws.hpp"
 #include "readers/liggghts_log.hpp"
 
 namespace bedscope::analysis {
@@ -65,9 +66,10 @@ double mean_radius(const RunSetup& setup, FirstRows& first) {
   const auto& type = first.column(FirstRows::type);
   double sum = 0, count = 0;
   for (std::size_t i = 0; i < first.column(FirstRows::x).size(); ++i) {
-    const double r = setup.radius_in_dumps
-                         ? radius[i]
-                         : setup.settings.radius.at(type.empty() ? 0 : static_cast<int>(type[i]));
+    const double r =
+        setup.radius_in_dumps
+            ? radius[i]
+            : setup.settings.radius.at(type.empty() ? 0 : readers::whole_type(type[i]));
     if (!(r > 0) || !std::isfinite(r)) continue;
     sum += r;
     count += 1;

@@ -13,7 +13,7 @@ namespace bedscope::analysis {
 namespace {
 
 constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
-constexpr int block_power = 4;            // 16 snapshots a block, DESIGN section 1
+constexpr int block_power = 4;            // 16 snapshots a block, added one by one
 constexpr std::size_t kept_blocks = 128;  // of fields, where the window is chosen afterwards
 constexpr std::size_t kept_leaves = 64;   // of profiles: enough for 10 batches, whatever the length
 

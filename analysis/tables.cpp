@@ -1,42 +1,38 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "analysis/tables.hpp"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <limits>
-#include <string>
 #include <string_view>
 
 #include "analysis/bed_tables.hpp"
 #include "analysis/csv.hpp"
 #include "analysis/gas_tables.hpp"
-#include "analysis/output_file.hpp"
+#include "analysis/table_parts.hpp"
 
 namespace bedscope::analysis {
 namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-double shown_time(const RunResult& run, double time) {
-  return run.time_known ? time : not_a_number;
-}
-
 constexpr std::string_view profile_columns =
     "holdup [-],holdup_ci95 [-],velocity_z [m/s],velocity_z_ci95 [m/s],mass_flux_z [kg/m2/s],"
     "mass_flux_z_ci95 [kg/m2/s]";
+
+template <class... Key>
+void write_profile(CsvWriter& table, const Profile& p, const Key&... key) {
+  for (std::size_t i = 0; i < p.coordinate.size(); ++i)
+    table.row(key..., p.coordinate[i], p.holdup[i].value, p.holdup[i].ci95, p.velocity_z[i].value,
+              p.velocity_z[i].ci95, p.mass_flux_z[i].value, p.mass_flux_z[i].ci95);
+}
 
 void write_axial(std::span<const RunResult> runs, const std::filesystem::path& path) {
   CsvWriter table(path, fmt::format("run,type,z [m],{}", profile_columns));
   for (const RunResult& run : runs)
     for (const SpeciesResult& species : run.species)
-      for (std::size_t i = 0; i < species.axial.coordinate.size(); ++i) {
-        const Profile& p = species.axial;
-        table.row(run.label, species.type, p.coordinate[i], p.holdup[i].value, p.holdup[i].ci95,
-                  p.velocity_z[i].value, p.velocity_z[i].ci95, p.mass_flux_z[i].value,
-                  p.mass_flux_z[i].ci95);
-      }
+      write_profile(table, species.axial, run.label, species.type);
   table.commit();
 }
 
@@ -45,12 +41,7 @@ void write_lateral(std::span<const RunResult> runs, const std::filesystem::path&
   for (const RunResult& run : runs)
     for (const SpeciesResult& species : run.species)
       for (std::size_t h = 0; h < species.lateral.size(); ++h)
-        for (std::size_t i = 0; i < species.lateral[h].coordinate.size(); ++i) {
-          const Profile& p = species.lateral[h];
-          table.row(run.label, species.type, run.heights[h], p.coordinate[i], p.holdup[i].value,
-                    p.holdup[i].ci95, p.velocity_z[i].value, p.velocity_z[i].ci95,
-                    p.mass_flux_z[i].value, p.mass_flux_z[i].ci95);
-        }
+        write_profile(table, species.lateral[h], run.label, species.type, run.heights[h]);
   table.commit();
 }
 
@@ -69,16 +60,12 @@ void write_clusters(std::span<const RunResult> runs, const std::filesystem::path
                   "run,time [s],cluster,track,x [m],z [m],area [m2],holdup [-],holdup_max [-],"
                   "velocity_x [m/s],velocity_z [m/s],track_velocity_x [m/s],track_velocity_z [m/s],"
                   "major [m],minor [m],angle [rad],parents");
-  std::string parents;
   for (const RunResult& run : runs)
-    for (const Cluster& c : run.clusters) {
-      parents.clear();
-      for (const int track : c.parents)
-        fmt::format_to(std::back_inserter(parents), "{}{}", parents.empty() ? "" : ";", track);
+    for (const Cluster& c : run.clusters)
       table.row(run.label, shown_time(run, c.time), c.cluster, c.track, c.centre.x, c.centre.z,
                 c.area, c.holdup, c.holdup_max, c.velocity_x, c.velocity_z, c.track_velocity_x,
-                c.track_velocity_z, c.major, c.minor, c.angle, parents);
-    }
+                c.track_velocity_z, c.major, c.minor, c.angle,
+                fmt::format("{}", fmt::join(c.parents, ";")));
   table.commit();
 }
 
@@ -91,8 +78,6 @@ void write_occurrence(std::span<const RunResult> runs, const std::filesystem::pa
 }
 
 void write_series(std::span<const RunResult> runs, const std::filesystem::path& path) {
-  if (std::all_of(runs.begin(), runs.end(), [](const auto& run) { return run.series.empty(); }))
-    return remove_file(path);
   CsvWriter table(path, "run,series,unit,time [s],value");
   for (const RunResult& run : runs)
     for (const Signal& signal : run.series)
@@ -141,28 +126,18 @@ void write_tables(std::span<const RunResult> runs, const std::filesystem::path& 
   write_clusters(runs, folder / "clusters.csv");
   write_occurrence(runs, folder / "cluster_occurrence.csv");
   write_bed_tables(runs, folder);
-
   write_gas_tables(runs, folder);
-  write_series(runs, folder / "series.csv");
 
-  const bool temperature = std::any_of(
-      runs.begin(), runs.end(), [](const RunResult& run) { return !run.temperature.empty(); });
-  const bool pdf = std::any_of(runs.begin(), runs.end(), [](const RunResult& run) {
+  const auto series = [](const RunResult& run) { return !run.series.empty(); };
+  const auto temperature = [](const RunResult& run) { return !run.temperature.empty(); };
+  const auto pdf = [](const RunResult& run) {
     return std::any_of(run.species.begin(), run.species.end(),
                        [](const SpeciesResult& s) { return !s.temperature_pdf.empty(); });
-  });
-  if (temperature) {
-    write_temperature(runs, folder / "temperature.csv");
-    write_axial_temperature(runs, folder / "temperature_axial.csv");
-  } else {
-    remove_file(folder / "temperature.csv");
-    remove_file(folder / "temperature_axial.csv");
-  }
-  if (pdf) {
-    write_temperature_pdf(runs, folder / "temperature_pdf.csv");
-  } else {
-    remove_file(folder / "temperature_pdf.csv");
-  }
+  };
+  write_or_remove(runs, folder / "series.csv", series, write_series);
+  write_or_remove(runs, folder / "temperature.csv", temperature, write_temperature);
+  write_or_remove(runs, folder / "temperature_axial.csv", temperature, write_axial_temperature);
+  write_or_remove(runs, folder / "temperature_pdf.csv", pdf, write_temperature_pdf);
 }
 
 }  // namespace bedscope::analysis

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tidy CSV tables under tables/, the contract of DESIGN with other programs, documented in
-// docs/results.md.
+// The tidy CSV tables under tables/, which other programs rely on: docs/results.md.
 #pragma once
 
 #include <array>
@@ -33,8 +32,7 @@ void write_tables(std::span<const RunResult> runs, const std::filesystem::path& 
 /// snapshots, times NaN), estimates (NaN), fields, frames and contours (empty). Cluster::snapshot
 /// is the place of its time in cluster_occurrence.csv, or the number of earlier snapshots in
 /// clusters.csv where that table is missing or times are not known. Throws InputError where there
-/// is no table or no such run, FormatError
-/// ("path: line N: expected ..., found ...") and FileError.
+/// is no table or no such run, FormatError ("path: line N: expected ..., found ...") and FileError.
 RunResult read_tables(const std::filesystem::path& folder, const std::string& label);
 
 /// The averaging window of a result that was read from tables, whose series go on outside it: the

@@ -21,9 +21,8 @@ namespace bedscope::analysis {
 /// - Every other track that links to a cluster is among its parents, ascending. So what splits off
 ///   is a new track with the old one as parent; what merges keeps the track of the largest
 ///   contributor and has the others as parents. No link: a new track without parents.
-/// - track_velocity = displacement of the centroid / dt along a track that has this one link on
-/// both
-///   sides; NaN at first sight and where clusters merge or split, because there the centroid jumps
+/// - track_velocity = displacement of the centroid / dt, where both clusters have this one link
+///   only; NaN at first sight and where clusters merge or split, because there the centroid jumps
 ///   with the area that comes or goes.
 /// - dt unknown (NaN), zero or negative: linked without moving, track_velocity NaN. Where times are
 ///   steps in truth, hand in NaN.

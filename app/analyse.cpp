@@ -38,11 +38,6 @@ struct Options {
 
 volatile std::sig_atomic_t interrupted = 0;
 
-Study study_of(const std::string& input) {
-  const bool is_study = std::filesystem::path(input).extension() == ".toml";
-  return is_study ? read_study(input) : study_of_path(input);
-}
-
 void write_all(const Study& study, const std::vector<RunResult>& results, const Options& options,
                OutputFolder& output) {
   output.show_earlier();
@@ -105,12 +100,10 @@ analysis::AnalysisOptions analysis_options(const Options& options, const OutputF
 RunResult analyse(const StudyRun& run, std::size_t number, const Options& options,
                   const OutputFolder& output, const Note& note) {
   Progress progress(run.settings.label, options.common.quiet);
-  auto result = run.tables.empty()
-                    ? analysis::analyse_run(
-                          run.settings, analysis_options(options, output, number, progress, note))
-                    : analysis::read_tables(run.tables, run.settings.label);
-  result.problems.insert(result.problems.end(), run.problems.begin(), run.problems.end());
-  return result;
+  return run.tables.empty()
+             ? analysis::analyse_run(run.settings,
+                                     analysis_options(options, output, number, progress, note))
+             : analysis::read_tables(run.tables, run.settings.label);
 }
 
 /// Looks again and again; a half-written last dump is left for the next look. Ends by Ctrl-C.

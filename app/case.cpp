@@ -4,9 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <filesystem>
-#include <fstream>
 #include <memory>
 
+#include "analysis/output_file.hpp"
 #include "app/case_run.hpp"
 #include "app/case_text.hpp"
 #include "app/commands.hpp"
@@ -27,13 +27,6 @@ struct Options {
   bool force = false;
 };
 
-void write_file(const fs::path& path, const std::string& content) {
-  std::ofstream file(path, std::ios::binary);
-  file << content;
-  file.close();
-  if (!file) throw FileError("{}: cannot be written", path.string());
-}
-
 void make(const Options& options) {
   const auto scene = cases::read_scene(options.scene);
   const auto limits = cases::scene_limits(scene);
@@ -46,8 +39,7 @@ void make(const Options& options) {
   OutputFolder folder(options.output);
   for (const auto& file : files) {
     const auto path = folder.part() / file.path;
-    fs::create_directories(path.parent_path());
-    write_file(path, file.content);
+    analysis::write_file(path, file.content);
     if (file.executable)
       fs::permissions(path, fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec,
                       fs::perm_options::add);
@@ -67,13 +59,7 @@ void scale(const Options& options) {
   const auto condition = physics::mapping_condition(options.condition);
   const auto scaled = cases::scale_scene(scene, options.factor, condition);
   const auto report = cases::scaling_report(scene, options.factor, condition);
-  if (!options.output.empty()) {
-    const auto beside = options.output + ".part";
-    write_file(beside, cases::scene_text(scaled));
-    std::error_code error;
-    fs::rename(beside, options.output, error);
-    if (error) throw FileError("{}: {}", options.output, error.message());
-  }
+  if (!options.output.empty()) analysis::write_file(options.output, cases::scene_text(scaled));
   if (options.common.json)
     fmt::print("{}", scale_json(scaled, report));
   else if (!options.common.quiet)

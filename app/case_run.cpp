@@ -35,7 +35,7 @@ std::optional<cases::Scene> scene_beside(const std::string& path, const std::str
 
 analysis::RunFacts facts_of(const std::string& path, double& gas_density) {
   if (ends_in(path, ".h5")) return analysis::facts_of_results(path);
-  const auto study = ends_in(path, ".toml") ? read_study(path) : study_of_path(path);
+  const auto study = study_of(path);
   const auto& run = study.runs.front();
   if (run.settings.particles.empty())
     throw InputError("{}: run \"{}\" has no particles to look at", path, run.settings.label);

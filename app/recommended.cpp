@@ -7,7 +7,6 @@
 #include <fstream>
 #include <functional>
 #include <iterator>
-#include <sstream>
 
 #include "readers/error.hpp"
 #include "readers/toml_table.hpp"
@@ -16,6 +15,8 @@ namespace bedscope::app {
 namespace {
 
 namespace fs = std::filesystem;
+using readers::toml_number;
+using readers::toml_text;
 
 /// A text that is changed at places found before the first change.
 class Edits {
@@ -74,14 +75,6 @@ class Edits {
   std::vector<std::size_t> lines_;  // offset of each
   std::vector<Edit> edits_;
 };
-
-std::string quoted(const std::string& text) {
-  const auto plain = [](unsigned char c) { return c >= 0x20 && c != '"' && c != '\\'; };
-  if (std::all_of(text.begin(), text.end(), plain)) return '"' + text + '"';
-  std::ostringstream out;
-  out << toml::value<std::string>(text);
-  return out.str();
-}
 
 bool is_block(const toml::table* table) { return table != nullptr && !table->is_inline(); }
 
@@ -169,7 +162,7 @@ class Paths {
     return (from_ / path).lexically_normal().lexically_relative(to_).string();
   }
   void put(const toml::node& node, const std::string& text) {
-    edits_.replace(node.source().begin, node.source().end, quoted(text));
+    edits_.replace(node.source().begin, node.source().end, toml_text(text));
   }
 
   fs::path from_, to_;
@@ -199,13 +192,6 @@ void set_band(const toml::table& root, double band, Edits& edits) {
     edits.append(fmt::format("\n[profiles]\n{}\n", line));
 }
 
-/// A TOML number that reads back to the same bits, always as a float.
-std::string float_text(double value) {
-  auto text = fmt::format("{}", value);
-  if (text.find_first_of(".en") == text.npos) text += ".0";
-  return text;
-}
-
 }  // namespace
 
 std::string changed_study(const std::string& path, const StudyChanges& changes,
@@ -218,8 +204,9 @@ std::string changed_study(const std::string& path, const StudyChanges& changes,
   move_paths(root, paths);
   StudyEditor study(root, edits);
   if (changes.mapping)
-    study.set({"mapping"},
-              [&](std::size_t) { return fmt::format("mapping = {}", quoted(*changes.mapping)); });
+    study.set({"mapping"}, [&](std::size_t) {
+      return fmt::format("mapping = {}", toml_text(*changes.mapping));
+    });
   if (changes.every)
     study.set({"every"}, [&](std::size_t) { return fmt::format("every = {}", *changes.every); });
   const auto& runs = changes.runs;
@@ -232,7 +219,7 @@ std::string changed_study(const std::string& path, const StudyChanges& changes,
   if (!runs.empty() && runs.front().average)
     study.set({"average"}, [&](std::size_t r) {
       const auto [from, to] = *runs[r].average;
-      return fmt::format("average = {{ from = {}, to = {} }}", float_text(from), float_text(to));
+      return fmt::format("average = {{ from = {}, to = {} }}", toml_number(from), toml_number(to));
     });
   study.finish();
   return edits.result();

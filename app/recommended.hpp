@@ -24,8 +24,8 @@ struct StudyChanges {
 };
 
 /// The text of the study at `path` with these changes, for a file in `folder`: relative paths are
-/// written anew for there. It is read again, and InputError is thrown where it would not say what
-/// was asked.
+/// written anew for there. Throws FileError, InputError. A study may be written so that its keys
+/// cannot be changed one by one: whoever asks reads the text again and compares.
 std::string changed_study(const std::string& path, const StudyChanges& changes,
                           const std::filesystem::path& folder);
 

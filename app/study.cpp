@@ -407,4 +407,9 @@ Study study_of_path(const std::string& path) {
   return study;
 }
 
+Study study_of(const std::string& input) {
+  const bool is_study = std::filesystem::path(input).extension() == ".toml";
+  return is_study ? read_study(input) : study_of_path(input);
+}
+
 }  // namespace bedscope::app

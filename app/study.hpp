@@ -20,8 +20,7 @@ struct TradeoffWishes {
 /// One [[run]] with the scene's keys put in where it does not say otherwise.
 struct StudyRun {
   analysis::RunSettings settings;
-  std::string tables;                 ///< a folder of tables instead of dumps; else empty
-  std::vector<std::string> problems;  ///< keys that this version reads but does not use yet
+  std::string tables;  ///< a folder of tables instead of dumps; else empty
 };
 
 struct Study {
@@ -39,5 +38,8 @@ Study read_study(const std::string& path);
 
 /// The study that stands for a bare path: everything by default, unknown things said so.
 Study study_of_path(const std::string& path);
+
+/// Of either: what ends in .toml is a study file.
+Study study_of(const std::string& input);
 
 }  // namespace bedscope::app

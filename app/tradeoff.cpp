@@ -9,6 +9,7 @@
 #include <set>
 
 #include "analysis/analyse_run.hpp"
+#include "analysis/choice_cost.hpp"
 #include "analysis/choice_sums.hpp"
 #include "analysis/output_file.hpp"
 #include "app/commands.hpp"
@@ -26,7 +27,6 @@ namespace {
 
 using analysis::RunSetup;
 using analysis::Variant;
-using validation::Recommendation;
 using validation::Tradeoff;
 
 struct Options {
@@ -190,6 +190,7 @@ void run(const Options& options) {
       throw InputError("run \"{}\": tradeoff: every = {}: expected one of {} for all runs",
                        one.settings.label, one.settings.every, fmt::join(everies, ", "));
   std::vector<validation::TradeoffRun> measured;
+  measured.reserve(runs.size());
   for (const auto& one : runs) measured.push_back(measure(one, everies, options));
 
   report::TradeoffReport report;
@@ -203,7 +204,7 @@ void run(const Options& options) {
   for (const auto& one : runs) {
     report.runs.push_back(one.result);
     if (one.study.settings.bubbles)
-      report.problems.push_back("bubbles are not weighed: their min_area follows the cell");
+      report.problems.emplace_back("bubbles are not weighed: their min_area follows the cell");
   }
   for (const auto& one : study.runs)
     if (!one.settings.gas.path.empty() || one.settings.spectra || !one.settings.probes.empty())

@@ -172,9 +172,8 @@ void read_inlet(Table& t, Scene& scene) {
   in.velocity = vector_of(t, "velocity", {});
   in.from = at_least_zero(t, "from", 0);
   in.to = at_least_zero(t, "to", 0);
-  const double flux = t.positive("flux").value_or(0);
-  if (in.particles == Supply::feed) in.flux = needed(t, "flux", "kg/m2/s");
-  in.flux = flux;
+  if (in.particles == Supply::feed) needed(t, "flux", "kg/m2/s");
+  in.flux = t.positive("flux").value_or(0);
   if (in.place != Place::bottom && !(in.from < in.to && in.to <= scene.geometry.height))
     t.fail(t.raw(), "inlet.from, inlet.to: expected a slit below the height {} [m], found {} to {}",
            scene.geometry.height, in.from, in.to);

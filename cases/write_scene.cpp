@@ -6,29 +6,13 @@
 
 #include "cases/scene_file.hpp"
 #include "cases/scene_names.hpp"
+#include "readers/toml_table.hpp"
 
 namespace bedscope::cases {
 namespace {
 
-/// A text as a basic string of TOML.
-std::string quoted(std::string_view text) {
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') quoted += '\\';
-    if (static_cast<unsigned char>(c) < ' ')
-      quoted += fmt::format("\\u{:04x}", static_cast<unsigned char>(c));
-    else
-      quoted += c;
-  }
-  return quoted + '"';
-}
-
-/// A number as TOML wants one: the shortest that gives the same bits, with a point or an exponent.
-std::string number(double value) {
-  auto text = fmt::format("{}", value);
-  if (text.find_first_of(".en") == text.npos) text += ".0";
-  return text;
-}
+using readers::toml_number;
+using readers::toml_text;
 
 class Writer {
  public:
@@ -43,15 +27,16 @@ class Writer {
     text_ += fmt::format("{} = {}\n", key, value);
   }
   void value(std::string_view key, double value, double otherwise = std::nan("")) {
-    if (value != otherwise) line(key, number(value));
+    if (value != otherwise) line(key, toml_number(value));
   }
   template <class T, std::size_t N>
   void word(std::string_view key, T value, const Words<T, N>& words, T otherwise) {
-    if (value != otherwise) line(key, quoted(word_of(value, words)));
+    if (value != otherwise) line(key, toml_text(word_of(value, words)));
   }
   void vector(std::string_view key, const Vector& v) {
     if (v != Vector{})
-      line(key, fmt::format("[{}, {}, {}]", number(v[0]), number(v[1]), number(v[2])));
+      line(key,
+           fmt::format("[{}, {}, {}]", toml_number(v[0]), toml_number(v[1]), toml_number(v[2])));
   }
   void counts(std::string_view key, const std::array<int, 3>& n) {
     if (n[0] != 0) line(key, fmt::format("[{}]", fmt::join(n, ", ")));
@@ -65,7 +50,7 @@ class Writer {
 void write_species(Writer& w, const Scene& scene) {
   for (const auto& s : scene.species) {
     w.species();
-    w.line("name", quoted(s.name));
+    w.line("name", toml_text(s.name));
     w.value("diameter", s.diameter);
     w.value("spread", s.spread, 0);
     w.value("density", s.density);
@@ -84,8 +69,8 @@ void write_particles(Writer& w, const Particles& p) {
   else if (p.arrangement != Arrangement::single)
     w.line("number", fmt::format("{}", p.number));
   if (p.arrangement == Arrangement::single)
-    w.line("position", fmt::format("[{}, {}, {}]", number(p.position[0]), number(p.position[1]),
-                                   number(p.position[2])));
+    w.line("position", fmt::format("[{}, {}, {}]", toml_number(p.position[0]),
+                                   toml_number(p.position[1]), toml_number(p.position[2])));
   w.vector("velocity", p.velocity);
   if (p.fixed) w.line("fixed", "true");
   w.value("temperature", p.temperature, Particles{}.temperature);
@@ -135,10 +120,10 @@ void write_boundaries(Writer& w, const Scene& scene) {
 
 std::string scene_text(const Scene& scene) {
   Writer w;
-  if (!scene.title.empty()) w.line("title", quoted(scene.title));
+  if (!scene.title.empty()) w.line("title", toml_text(scene.title));
   if (!scene.notes.empty()) {
     std::string notes;
-    for (const auto& note : scene.notes) notes += "\n  " + quoted(note) + ",";
+    for (const auto& note : scene.notes) notes += "\n  " + toml_text(note) + ",";
     w.line("notes", "[" + notes + "\n]");
   }
   w.value("gravity", scene.gravity);
@@ -170,7 +155,7 @@ std::string scene_text(const Scene& scene) {
   w.value("average_from", n.average_from, 0);
   const auto& m = scene.models;
   w.table("models");
-  if (m.drag != Models{}.drag) w.line("drag", quoted(m.drag));
+  if (m.drag != Models{}.drag) w.line("drag", toml_text(m.drag));
   w.word("void_fraction", m.void_fraction, void_fraction_words, VoidFraction::divided);
   w.word("coupling", m.implicit_drag, coupling_words, true);
   if (m.energy) w.line("energy", "true");

@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numeric>
 #include <vector>
@@ -48,11 +49,12 @@ class Level {
     const auto ball = [&](std::size_t row) {
       return Ball{s.x[row], s.y[row], s.z[row], s.radius[row], row};
     };
-    for (const auto row : rows) ++starts_[bucket(cell_of(ball(row))) + 1];
+    // Where each bucket ends, counted down to where it begins: no second list of them.
+    for (const auto row : rows) ++starts_[bucket(cell_of(ball(row)))];
     std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
     balls_.resize(rows.size());
-    auto next = starts_;
-    for (const auto row : rows) balls_[next[bucket(cell_of(ball(row)))]++] = ball(row);
+    for (std::size_t n = rows.size(); n-- > 0;)
+      balls_[--starts_[bucket(cell_of(ball(rows[n])))]] = ball(rows[n]);
   }
 
   const std::vector<Ball>& balls() const { return balls_; }
@@ -95,9 +97,11 @@ class Level {
   std::vector<Ball> balls_;
 };
 
-/// Rows by size: class n holds diameters from 2^n to 2^(n+1).
-std::map<int, std::vector<std::size_t>> by_size(const Spheres& s) {
-  std::map<int, std::vector<std::size_t>> classes;
+/// Rows by size, the largest first: class n holds radii from 2^n to 2^(n+1).
+using SizeClasses = std::map<int, std::vector<std::size_t>, std::greater<>>;
+
+SizeClasses by_size(const Spheres& s) {
+  SizeClasses classes;
   for (std::size_t row = 0; row < s.x.size(); ++row) {
     const double r = s.radius[row];
     // Coordinates beyond 1e12 diameters have no digits left to tell an overlap from.
@@ -154,8 +158,8 @@ Overlaps find_overlaps(const Spheres& spheres) {
   const auto classes = by_size(spheres);
   // Each sphere against its own class and all larger ones: a cell there is as wide as both.
   std::vector<Level> larger;
-  for (auto own = classes.rbegin(); own != classes.rend(); ++own) {
-    larger.emplace_back(spheres, own->second);
+  for (const auto& [size, rows] : classes) {
+    larger.emplace_back(spheres, rows);
     for (const auto& a : larger.back().balls()) {
       for (const auto& level : larger) {
         looks -= 27;  // the cells themselves

@@ -357,4 +357,12 @@ std::string Series::place(std::size_t i, std::size_t row) const {
                                              : fmt::format("point {}", row));
 }
 
+std::vector<std::size_t> evenly_spread(std::size_t count, std::size_t at_most) {
+  const std::size_t picks = std::min(count, at_most);
+  std::vector<std::size_t> places;
+  for (std::size_t k = 0; k < picks; ++k)
+    places.push_back(picks == 1 ? 0 : k * (count - 1) / (picks - 1));
+  return places;
+}
+
 }  // namespace bedscope::readers

@@ -120,4 +120,8 @@ class Series {
   bool cut_ = false, has_steps_ = true, named_ = true, unused_names_ = false;
 };
 
+/// A sample of `count` things in a row: the places of at most so many, ascending, the first and the
+/// last among them, the others evenly between.
+std::vector<std::size_t> evenly_spread(std::size_t count, std::size_t at_most);
+
 }  // namespace bedscope::readers

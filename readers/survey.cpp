@@ -8,18 +8,9 @@
 #include "readers/columns.hpp"
 
 namespace bedscope::readers {
-namespace {
-
-constexpr std::size_t sample = 10;
-
-}  // namespace
-
 std::vector<std::size_t> chosen_snapshots(std::size_t count, bool full) {
-  std::vector<std::size_t> chosen;
-  const std::size_t picks = full ? count : std::min(count, sample);
-  for (std::size_t k = 0; k < picks; ++k)
-    chosen.push_back(picks == 1 ? 0 : k * (count - 1) / (picks - 1));
-  return chosen;
+  constexpr std::size_t sample = 10;
+  return evenly_spread(count, full ? count : sample);
 }
 
 namespace {
@@ -218,7 +209,12 @@ class RowSurvey {
     }
   }
 
+  /// Last of all: the search takes as much memory as the columns, and those that it does not look
+  /// at make room for it.
   void add_overlaps(std::size_t i) {
+    for (std::size_t k = Columns::vx; k < snapshot_.columns.size(); ++k)
+      if (k != Columns::radius && k != columns_.body)
+        std::vector<double>().swap(snapshot_.columns[k]);
     Spheres spheres{column(0), column(1), column(2), column(Columns::radius), {}};
     if (columns_.body > 0) spheres.body = column(columns_.body);
     const auto here = find_overlaps(spheres);

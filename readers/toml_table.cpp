@@ -171,4 +171,22 @@ void TomlTable::finish() const {
                        key(nearest_name(name.str(), known_)));
 }
 
+std::string toml_text(std::string_view text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') quoted += '\\';
+    if (static_cast<unsigned char>(c) < ' ' || c == '\x7f')
+      quoted += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+    else
+      quoted += c;
+  }
+  return quoted + '"';
+}
+
+std::string toml_number(double value) {
+  auto text = fmt::format("{}", value);
+  if (text.find_first_of(".en") == text.npos) text += ".0";
+  return text;
+}
+
 }  // namespace bedscope::readers

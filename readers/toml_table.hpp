@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A TOML file read key by key: what is of another type, missing or unknown is one clear line.
+// A TOML file read key by key: what is of another type, missing or unknown is one clear line. And
+// how values are written so that they are read back.
 #pragma once
 
 #include <toml++/toml.h>
@@ -71,5 +72,11 @@ class TomlTable {
   const std::string* path_;
   std::set<std::string> known_;
 };
+
+/// A text as a basic string of TOML, in its quotes.
+std::string toml_text(std::string_view text);
+
+/// The shortest that reads back to the same bits, with a point or an exponent: always a float.
+std::string toml_number(double value);
 
 }  // namespace bedscope::readers

@@ -52,9 +52,6 @@ std::string constant(std::string_view text) {
   return result + "'";
 }
 
-}  // namespace
-
-namespace {
 /// A word as it is written: what gnuplot's enhanced text takes for markup is escaped.
 std::string plain(std::string_view word) {
   std::string text;
@@ -69,6 +66,7 @@ std::string plain(std::string_view word) {
 std::string subscript(std::string_view part) {
   return part.size() > 2 ? fmt::format("_{{{}}}", part.substr(1)) : std::string(part);
 }
+
 }  // namespace
 
 std::string literal(std::string_view text) {

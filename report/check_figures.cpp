@@ -243,9 +243,7 @@ void add_result(Canvas& canvas, const Verdict& verdict, const Layout& layout,
   }
   if (const auto band = estimate_band(at, shown, 1); !band.empty())
     layers.push_back(Canvas::layer(canvas.block("band of the result: value, x", band),
-                                   fmt::format("using 2:1 with filledcurves closed fs transparent "
-                                               "solid 0.25 noborder fc rgb '{}'",
-                                               result_colour)));
+                                   fmt::format("using 2:1 {}", band_words(result_colour))));
   layers.push_back(
       Canvas::layer(canvas.block("result: x, value, ci95", rows),
                     fmt::format("using 1:2 with lines lc rgb '{}' lw 1.3", result_colour)));

@@ -70,16 +70,6 @@ std::string cluster_rows(const RunResult& run, double Cluster::*value, double fa
   return rows;
 }
 
-std::vector<LegendEntry> means_legend(Runs runs) {
-  std::vector<LegendEntry> entries;
-  for (std::size_t r = 0; r < runs.size(); ++r) {
-    const CurveStyle style = curve_style(r);
-    entries.push_back({style.line + " lw 1.3",
-                       fmt::format("{} lc rgb '{}'", style.marker, style.colour), runs[r].label});
-  }
-  return entries;
-}
-
 /// A quantity of the clusters of all runs.
 struct Row {
   std::string label;
@@ -153,7 +143,7 @@ Figure clusters_lateral_figure(Runs runs) {
   const double width =
       std::min((page_width - left - 4 + gap) / static_cast<double>(columns) - gap, 80.0);
   const double total = left + static_cast<double>(columns) * (width + gap) - gap + 4;
-  const std::vector<LegendEntry> entries = means_legend(runs);
+  const std::vector<LegendEntry> entries = run_legend(runs, true);
   const double legend = several ? Canvas::legend_height(entries, total - left) + 1 : 0;
   Canvas canvas(total, bottom + 2 * row_height + gap + top + legend);
   if (several) canvas.legend(entries, left, canvas.height() - 0.5, total - left);

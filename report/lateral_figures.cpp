@@ -95,12 +95,8 @@ void lateral_layers(Canvas& canvas, const std::string& label, std::size_t run,
         block, fmt::format("using 1:2 with points {} lc rgb '{}'", style.marker, style.colour)));
   } else if (const std::string band = estimate_band(profile.coordinate, values, x_factor);
              !band.empty()) {
-    const std::size_t outline = canvas.block("band of " + label + ": value, x", band);
-    back.push_back(Canvas::layer(
-        outline,
-        fmt::format("using 2:1 with filledcurves closed fs transparent solid 0.25 noborder "
-                    "fc rgb '{}'",
-                    style.colour)));
+    back.push_back(Canvas::layer(canvas.block("band of " + label + ": value, x", band),
+                                 fmt::format("using 2:1 {}", band_words(style.colour))));
   }
   front.push_back(Canvas::layer(block, fmt::format("using 1:2 with lines {} lw 1.0", style.line)));
 }

@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <set>
 
 #include "analysis/output_file.hpp"
 #include "readers/error.hpp"
@@ -83,31 +83,19 @@ std::string problem_list(std::span<const RunResult> runs) {
 }
 
 std::string link_list(const fs::path& folder) {
-  static constexpr std::array files{"results.h5",
-                                    "summary.json",
-                                    "tables/axial_profile.csv",
-                                    "tables/lateral_profile.csv",
-                                    "tables/inventory.csv",
-                                    "tables/clusters.csv",
-                                    "tables/cluster_occurrence.csv",
-                                    "tables/bed_height.csv",
-                                    "tables/bubbles.csv",
-                                    "tables/bubble_profile.csv",
-                                    "tables/fluctuation.csv",
-                                    "tables/spectrum.csv",
-                                    "tables/temperature.csv",
-                                    "tables/temperature_pdf.csv",
-                                    "tables/gas_axial.csv",
-                                    "tables/gas_lateral.csv",
-                                    "tables/voidage_check.csv",
-                                    "tables/pressure_drop.csv",
-                                    "tables/series.csv"};
+  std::set<std::string> tables;
+  std::error_code missing;
+  for (fs::directory_iterator item(folder / "tables", missing), end; !missing && item != end;
+       item.increment(missing))
+    if (item->path().extension() == ".csv")
+      tables.insert("tables/" + item->path().filename().string());
+  std::vector<std::string> files{"results.h5", "summary.json"};
+  files.insert(files.end(), tables.begin(), tables.end());
   std::string links = "<p class=\"note\">Data: ";
-  for (const char* file : files) {
-    std::error_code missing;
+  for (const std::string& file : files) {
     if (!fs::exists(folder / file, missing)) continue;
-    const std::string name = fs::path(file).filename().string();
-    links += fmt::format("<a href=\"{}\">{}</a>, ", file, name);
+    links += fmt::format("<a href=\"{}\">{}</a>, ", escaped(file),
+                         escaped(fs::path(file).filename().string()));
   }
   return links +
          "folders <a href=\"tables/\">tables/</a> and <a href=\"figures/\">figures/</a></p>\n";

@@ -11,8 +11,6 @@ namespace bedscope::report {
 
 using analysis::RunResult;
 
-using Samples = std::vector<std::pair<double, double>>;  // time, value
-
 namespace {
 
 constexpr double left = 19, bottom = 11;

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/choice_cost.hpp"
 #include "analysis/choice_sums.hpp"
 #include "analysis/estimate.hpp"
 

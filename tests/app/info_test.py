@@ -148,6 +148,11 @@ class Findings(Info):
         self.post(name="none", leave=("radius",))
         self.assertIn("radius is missing", self.json("none")["analyse"]["stops"])
 
+    def test_one_snapshot_needs_the_memory_of_one(self):
+        self.post([0], count=20000)
+        columns = 1.5 * 8 * 10 * 20000  # bytes of a snapshot, as estimated; the program itself has 20 MB
+        self.assertLess(self.json("post")["analyse"]["memory"], 20e6 + 1.5 * columns)
+
 
 class StudyFile(Info):
     def study(self, path):
@@ -179,6 +184,8 @@ class StudyFile(Info):
     def test_names_with_quotes_blanks_and_patterns(self):
         self.post(name='a "b" c')
         self.assertIn('particles = "a \\"b\\" c/dump*"', self.study('a "b" c/dump*'))
+        self.post(name="tab\tdel\x7f")
+        self.assertIn('particles = "tab\\u0009del\\u007f"', self.study("tab\tdel\x7f"))
 
     def test_takes_radii_from_the_log_where_the_dumps_have_none(self):
         self.write("log.liggghts", LOG)

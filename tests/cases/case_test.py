@@ -10,6 +10,7 @@ import math
 import os
 import re
 import shutil
+import stat
 import subprocess
 import sys
 import tempfile
@@ -157,6 +158,12 @@ class Run(Case):
         for name in ("u_t", "Ar", "particles", "solids mass"):
             self.assertAlmostEqual(by_results[name] / by_dumps[name], 1, 3, name)
 
+    def test_a_type_that_is_no_number_is_type_0_as_analyse_has_it(self):
+        self.write("dump.0", "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS ff ff ff\n0 1\n0 1\n0 1\n"
+                             "ITEM: ATOMS id type x y z radius\n1 1 0.1 0.2 0.3 0.01\n2 nan 0.4 0.2 0.3 0.01\n")
+        study = self.write("study.toml", '[[run]]\nparticles = "dump.0"\ndensity = { 0 = 1000, 1 = 2000 }\n')
+        self.assertAlmostEqual(self.checked(study)["numbers"]["solids mass"], 3000 * 4 / 3 * math.pi * 1e-6, 9)
+
     def test_what_is_no_run_is_one_line(self):
         for path in (self.write("no.h5", "text"), self.folder + "/none", self.write("x.toml", "[[run]]\n")):
             done = case("check", path)
@@ -195,6 +202,14 @@ class BadInput(Case):
         self.refused("scale", SCENES + "riser/scene.toml", "--factor", "-1", "--condition", "b")
         self.refused("scale", SCENES + "riser/scene.toml", "--factor", "2", "--condition", "e")
         self.refused("make", SCENES + "riser/scene.toml")
+
+    def test_a_scaled_scene_replaces_nothing_but_a_file(self):
+        pipe = self.folder + "/pipe"
+        os.mkfifo(pipe)
+        text = self.refused("scale", SCENES + "riser/scene.toml", "--factor", "2", "--condition", "b", "-o", pipe)
+        self.assertIn("pipe: not a regular file", text)
+        self.assertEqual(os.listdir(self.folder), ["pipe"])
+        self.assertTrue(stat.S_ISFIFO(os.stat(pipe).st_mode))
 
 
 class Decks(Case):

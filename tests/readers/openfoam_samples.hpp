@@ -14,21 +14,13 @@
 #include <string_view>
 #include <vector>
 
-#include "readers/error.hpp"
+#include "tests/readers/test_files.hpp"
 
 namespace bedscope::readers::samples {
-
-namespace fs = std::filesystem;
 
 inline const fs::path data = fs::path(BEDSCOPE_TEST_DATA) / "openfoam";
 inline const fs::path shared = BEDSCOPE_SHARED;
 inline bool corpus_there() { return fs::exists(shared / "corpus" / "expected_arrays.csv"); }
-
-inline std::string bytes_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  EXPECT_TRUE(file) << path;
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 /// A folder of this test, gone with the object.
 class Folder {
@@ -65,36 +57,6 @@ inline std::string header(std::string_view class_name, std::string_view format =
                           std::string_view more = "") {
   return fmt::format("FoamFile {{ version 2.0; format {}; class {}; {} object x; }}\n", format,
                      class_name, more);
-}
-
-/// The text of the bedscope::Error that `what` ends in; empty where it does not.
-template <class What>
-std::string error_of(What&& what) {
-  try {
-    what();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return {};
-}
-
-/// The rows of a CSV file, quotes removed.
-inline std::vector<std::vector<std::string>> csv(const fs::path& path) {
-  std::vector<std::vector<std::string>> rows;
-  std::ifstream file(path);
-  for (std::string line; std::getline(file, line);) {
-    auto& row = rows.emplace_back(1);
-    bool quoted = false;
-    for (const char c : line) {
-      if (c == '"')
-        quoted = !quoted;
-      else if (c == ',' && !quoted)
-        row.emplace_back();
-      else
-        row.back() += c;
-    }
-  }
-  return rows;
 }
 
 }  // namespace bedscope::readers::samples

@@ -50,6 +50,25 @@ inline std::string bytes_of(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
+/// The rows of a CSV file, quotes removed.
+inline std::vector<std::vector<std::string>> csv(const fs::path& path) {
+  std::vector<std::vector<std::string>> rows;
+  std::ifstream file(path);
+  for (std::string line; std::getline(file, line);) {
+    auto& row = rows.emplace_back(1);
+    bool quoted = false;
+    for (const char c : line) {
+      if (c == '"')
+        quoted = !quoted;
+      else if (c == ',' && !quoted)
+        row.emplace_back();
+      else
+        row.back() += c;
+    }
+  }
+  return rows;
+}
+
 /// One gzip member.
 inline std::string gzip(const std::string& text, int level = Z_DEFAULT_COMPRESSION) {
   z_stream stream{};

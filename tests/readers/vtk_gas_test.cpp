@@ -15,9 +15,9 @@ namespace {
 
 using samples::Folder;
 
-const samples::fs::path vtk = samples::fs::path(BEDSCOPE_TEST_DATA) / "vtk_gas";
+const fs::path vtk = fs::path(BEDSCOPE_TEST_DATA) / "vtk_gas";
 
-GasSeries open(const samples::fs::path& path) { return GasSeries::open(path.string()); }
+GasSeries open(const fs::path& path) { return GasSeries::open(path.string()); }
 
 // foamToVTK writes float, in text six digits.
 void expect_same_fields(const GasSeries& a, std::size_t time_a, const GasSeries& b,
@@ -107,7 +107,7 @@ TEST(VtkGas, RefinedBoxesStayBoxes) {
 
 TEST(VtkGas, DecomposedPolyhedraFillTheSameVolume) {
   for (const auto* name : {"refined", "dual"}) {
-    const auto gas = open(samples::fs::path(vtk) / name / "decomposed");
+    const auto gas = open(fs::path(vtk) / name / "decomposed");
     const auto mesh = gas.mesh_at(0), whole = open(vtk / name / "case").mesh_at(0);
     EXPECT_GT(mesh->cells(), whole->cells());
     EXPECT_FALSE(mesh->boxes.has_value());
@@ -260,7 +260,7 @@ TEST(VtkGas, FoldersWithoutListAreOrderedByTheTimeInside) {
 TEST(VtkGas, WhatIsWrongWithACellIsNamed) {
   const Folder folder;
   const auto error = [&](const std::string& text) {
-    return samples::error_of([&] {
+    return error_of([&] {
       const auto gas = open(folder.write("a.vtu", text));
       FieldValues values;
       for (const auto& name : gas.fields_at(0)) gas.read(0, name, 1, values);
@@ -299,7 +299,7 @@ TEST(VtkGas, LastTimeThatIsCutIsLeftOutAndSaid) {
     folder.copy(vtk / form, "VTK");
     const std::string file =
         form == std::string("xml") ? "VTK/boxes_1/internal.vtu" : "VTK/boxes_1.vtk";
-    const auto whole = samples::bytes_of(folder.path(file));
+    const auto whole = bytes_of(folder.path(file));
     for (const double part : {0.02, 0.3, 0.9}) {
       folder.write(
           file,
@@ -320,12 +320,12 @@ TEST(VtkGas, CutsAndBytesChangedNeverCrash) {
                                     {"dual_5.1.vtk", "c.vtk"},
                                     {"dual_raw_lz4.vtu", "c.vtu"}}) {
     const std::string to = under;  // clang 14 has no captures of structured bindings
-    const auto whole = samples::bytes_of(vtk / from);
+    const auto whole = bytes_of(vtk / from);
     std::size_t answered = 0, tried = 0;
     const auto attempt = [&](const std::string& bytes) {
       ++tried;
       const auto path = folder.write(to, bytes);
-      const auto error = samples::error_of([&] {
+      const auto error = error_of([&] {
         const auto gas = open(path);
         FieldValues values;
         for (const auto& name : gas.fields_at(0)) try {
@@ -353,19 +353,17 @@ TEST(VtkGas, ChoicesAreTheUsers) {
   folder.write("VTK/other.pvd",
                "<VTKFile type='Collection'><Collection><DataSet timestep='1' "
                "file='boxes_0/internal.vtu'/></Collection></VTKFile>");
-  EXPECT_NE(samples::error_of([&] {
-              open(folder.path("VTK"));
-            }).find("several lists of times, name one of"),
+  EXPECT_NE(error_of([&] { open(folder.path("VTK")); }).find("several lists of times, name one of"),
             std::string::npos);
   EXPECT_EQ(open(folder.path("VTK/other.pvd")).times()[0].time, 1);
-  EXPECT_NE(samples::error_of([&] {
+  EXPECT_NE(error_of([&] {
               open(folder.write("t.txt", "hello"));
             }).find("expected an OpenFOAM case or VTK"),
             std::string::npos);
   folder.write("none/a.txt", "");
-  EXPECT_NE(samples::error_of([&] { open(folder.path("none")); }), "");
+  EXPECT_NE(error_of([&] { open(folder.path("none")); }), "");
   EXPECT_FALSE(is_vtk_gas(folder.path("none")));
-  EXPECT_FALSE(is_vtk_gas((samples::fs::path(BEDSCOPE_TEST_DATA) / "liggghts_parallel").string()));
+  EXPECT_FALSE(is_vtk_gas((fs::path(BEDSCOPE_TEST_DATA) / "liggghts_parallel").string()));
 }
 
 // Cells cut by a wall among boxes, 1024 of them. Coordinates up to 2 m are floats: each face of a
@@ -373,7 +371,7 @@ TEST(VtkGas, ChoicesAreTheUsers) {
 TEST(VtkGas, CellsOfMfixHaveTheVolumesThatMfixSays) {
   const auto file =
       samples::shared / "corpus/found/Remmy195__MFiX-CFD-DEM/mfixgui/tests/vtk/test.vtu";
-  if (!samples::fs::exists(file)) GTEST_SKIP() << "no corpus beside the project";
+  if (!fs::exists(file)) GTEST_SKIP() << "no corpus beside the project";
   const auto gas = open(file);
   FieldValues said;
   gas.read(0, "Volume", 1, said);

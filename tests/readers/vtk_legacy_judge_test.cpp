@@ -25,14 +25,12 @@
 #include <vtkUnstructuredGridReader.h>
 #include <vtkUnstructuredGridWriter.h>
 
-#include <bit>
 #include <cmath>
 #include <random>
 
-#include "readers/columns.hpp"
-#include "readers/forms.hpp"
 #include "readers/source.hpp"
 #include "tests/readers/test_files.hpp"
+#include "tests/readers/vtk_judge.hpp"
 
 namespace bedscope::readers {
 
@@ -59,39 +57,6 @@ vtkSmartPointer<vtkPointSet> judge(const std::string& path) {
              : judge_as<vtkUnstructuredGridReader>(path);
 }
 
-/// How many numbers of `path` were compared with VTK's.
-std::size_t compare(const std::string& path, vtkPointSet& theirs) {
-  Request request = {{"x"}, {"y"}, {"z"}};
-  std::vector<std::pair<vtkDataArray*, int>> components;
-  components.reserve(3);
-  for (int c = 0; c < 3; ++c) components.emplace_back(theirs.GetPoints()->GetData(), c);
-  for (int a = 0; a < theirs.GetPointData()->GetNumberOfArrays(); ++a) {
-    vtkDataArray* array = theirs.GetPointData()->GetArray(a);
-    if (array == nullptr) continue;  // of strings
-    const auto names = component_names(array->GetName(), array->GetNumberOfComponents());
-    for (int c = 0; c < array->GetNumberOfComponents(); ++c) {
-      request.push_back({names[static_cast<std::size_t>(c)]});
-      components.emplace_back(array, c);
-    }
-  }
-  Snapshot snapshot;
-  Scratch scratch;
-  vtk_legacy.read(path, {}, request, snapshot, scratch);
-  EXPECT_EQ(static_cast<vtkIdType>(snapshot.particles), theirs.GetNumberOfPoints());
-  std::size_t compared = 0;
-  for (std::size_t k = 0; k < components.size() && snapshot.particles > 0; ++k) {
-    const auto [array, component] = components[k];
-    std::size_t different = 0;
-    for (std::size_t i = 0; i < snapshot.particles; ++i, ++compared) {
-      const double expected = array->GetComponent(static_cast<vtkIdType>(i), component);
-      different += std::bit_cast<std::uint64_t>(expected) !=
-                   std::bit_cast<std::uint64_t>(snapshot.columns[k].at(i));
-    }
-    EXPECT_EQ(different, 0U) << request[k].name << " of " << path;
-  }
-  return compared;
-}
-
 struct Tally {
   std::size_t files = 0, numbers = 0;
 };
@@ -105,7 +70,7 @@ Tally judge_folder(const fs::path& folder) {
     SCOPED_TRACE(path);
     const auto scan = vtk_legacy.scan(path, true);
     if (!scan.not_particles.empty() || scan.snapshots.at(0).particles == 0) continue;
-    tally.numbers += compare(path, *judge(path));
+    tally.numbers += compare(vtk_legacy, path, *judge(path));
     ++tally.files;
   }
   return tally;
@@ -216,9 +181,9 @@ TEST(VtkLegacyJudge, WhateverVtkWritesIsReadAsVtkReadsIt) {
       write<vtkPolyDataWriter>(*poly, path, binary, version);
       const auto from_poly = judge(path);
       ASSERT_GE(from_poly->GetPointData()->GetNumberOfArrays(), 18);
-      EXPECT_EQ(compare(path, *from_poly), 300U * 44);
+      EXPECT_EQ(compare(vtk_legacy, path, *from_poly), 300U * 44);
       write<vtkUnstructuredGridWriter>(*grid, path, binary, version);
-      EXPECT_EQ(compare(path, *judge(path)), 300U * 44);
+      EXPECT_EQ(compare(vtk_legacy, path, *judge(path)), 300U * 44);
     }
 }
 

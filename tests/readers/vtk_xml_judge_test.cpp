@@ -10,13 +10,11 @@
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
-#include <cstring>
 #include <filesystem>
 
-#include "readers/columns.hpp"
-#include "readers/forms.hpp"
 #include "readers/source.hpp"
 #include "readers/vtk_xml.hpp"
+#include "tests/readers/vtk_judge.hpp"
 
 namespace bedscope::readers {
 
@@ -32,40 +30,6 @@ vtkSmartPointer<vtkPointSet> judge_as(const std::string& path) {
   reader->SetFileName(path.c_str());
   reader->Update();
   return reader->GetOutput();
-}
-
-// How many numbers were compared.
-std::size_t compare(const std::string& path, vtkPointSet& judge) {
-  Request request = {{"x"}, {"y"}, {"z"}};
-  std::vector<std::pair<vtkDataArray*, int>> components;
-  for (int c = 0; c < 3; ++c) {
-    components.emplace_back(judge.GetPoints() ? judge.GetPoints()->GetData() : nullptr, c);
-  }
-  for (int a = 0; a < judge.GetPointData()->GetNumberOfArrays(); ++a) {
-    vtkDataArray* array = judge.GetPointData()->GetArray(a);
-    if (array == nullptr) continue;  // of strings
-    const auto names = component_names(array->GetName(), array->GetNumberOfComponents());
-    for (int c = 0; c < array->GetNumberOfComponents(); ++c) {
-      request.push_back({names[static_cast<std::size_t>(c)]});
-      components.emplace_back(array, c);
-    }
-  }
-  Snapshot snapshot;
-  Scratch scratch;
-  vtk_xml.read(path, {}, request, snapshot, scratch);
-  EXPECT_EQ(static_cast<vtkIdType>(snapshot.particles), judge.GetNumberOfPoints());
-  std::size_t compared = 0;
-  for (std::size_t k = 0; k < components.size() && snapshot.particles > 0; ++k) {
-    const auto [array, component] = components[k];
-    for (std::size_t i = 0; i < snapshot.particles; ++i) {
-      const double theirs = array->GetComponent(static_cast<vtkIdType>(i), component);
-      const double ours = snapshot.columns[k].at(i);
-      EXPECT_EQ(std::memcmp(&theirs, &ours, sizeof(double)), 0)
-          << request[k].name << " of particle " << i << ": " << theirs << " " << ours;
-      ++compared;
-    }
-  }
-  return compared;
 }
 
 struct Tally {
@@ -90,7 +54,7 @@ void judge_folder(const fs::path& folder, Tally& tally) {
       ++tally.refused_by_vtk;
       continue;
     }
-    tally.numbers += compare(path, *judge);
+    tally.numbers += compare(vtk_xml, path, *judge);
     ++tally.files;
   }
 }

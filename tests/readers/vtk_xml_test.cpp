@@ -17,6 +17,7 @@
 #include "readers/base64.hpp"
 #include "readers/forms.hpp"
 #include "readers/xml_text.hpp"
+#include "tests/readers/test_files.hpp"
 
 namespace bedscope::readers {
 
@@ -24,16 +25,8 @@ extern const Form vtk_xml;
 
 namespace {
 
-namespace fs = std::filesystem;
-
 const fs::path data = fs::path(BEDSCOPE_TEST_DATA) / "vtk_xml";
 const fs::path shared = BEDSCOPE_SHARED;
-
-std::string bytes_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  EXPECT_TRUE(file) << path;
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 // A file of this process, gone with the object.
 class TemporaryFile {
@@ -52,11 +45,9 @@ class TemporaryFile {
 };
 
 Snapshot read(const std::string& path, const std::vector<std::string>& names) {
-  Request request;
-  for (const auto& name : names) request.push_back({name, true});
   Snapshot snapshot;
   Scratch scratch;
-  vtk_xml.read(path, {}, request, snapshot, scratch);
+  vtk_xml.read(path, {}, request_of(names), snapshot, scratch);
   return snapshot;
 }
 
@@ -643,25 +634,6 @@ TEST(Base64, AnythingElseIsDamageAndItsPlaceIsKnown) {
 }
 
 // ---- The developers' corpus, where it is at hand
-
-std::vector<std::vector<std::string>> csv(const fs::path& path) {
-  std::ifstream file(path);
-  std::vector<std::vector<std::string>> rows;
-  for (std::string line; std::getline(file, line);) {
-    std::vector<std::string> row(1);
-    bool quoted = false;
-    for (const char c : line) {
-      if (c == '"')
-        quoted = !quoted;
-      else if (c == ',' && !quoted)
-        row.emplace_back();
-      else
-        row.back() += c;
-    }
-    rows.push_back(row);
-  }
-  return rows;
-}
 
 TEST(VtkXmlCorpus, CountsAndRangesAreThoseOfTheTable) {
   if (!fs::exists(shared / "corpus")) GTEST_SKIP() << "no corpus";

@@ -229,10 +229,12 @@ TEST_F(Report, TableGivesMeansWithIntervalsAndProblems) {
 
 TEST_F(Report, LinksToTheTablesThatAreThere) {
   fs::create_directories(folder() / "tables");
-  std::ofstream(folder() / "tables" / "clusters.csv") << "run\n";
+  for (const char* name : {"clusters.csv", "temperature_axial.csv"})
+    std::ofstream(folder() / "tables" / name) << "run\n";
   std::ofstream(folder() / "results.h5") << "x";
   write({synthetic_run()});
   EXPECT_NE(page().find("href=\"tables/clusters.csv\""), std::string::npos);
+  EXPECT_NE(page().find("href=\"tables/temperature_axial.csv\""), std::string::npos);
   EXPECT_NE(page().find("href=\"results.h5\""), std::string::npos);
   EXPECT_EQ(page().find("href=\"tables/temperature.csv\""), std::string::npos);
 }
