@@ -34,7 +34,7 @@ def place(x, y):
     return 60 + 300 * x, 260 - 240 * y
 
 
-def draw(path, points=POINTS, colour=(214, 39, 40), bars=None, turn=0.0, curve=(), width=4):
+def draw(path, points=POINTS, colour=(214, 39, 40), bars=None, turn=0.0, curve=()):
     image = Image.new("RGB", (400 * FINE, 300 * FINE), "white")
     pen = ImageDraw.Draw(image)
     corners = [place(0, 0), place(1, 0), place(1, 1), place(0, 1), place(0, 0)]
@@ -45,7 +45,7 @@ def draw(path, points=POINTS, colour=(214, 39, 40), bars=None, turn=0.0, curve=(
         a, b = place(0, tick)
         pen.line([(FINE * (a - 6), FINE * b), (FINE * a, FINE * b)], fill="black", width=FINE)
     if curve:
-        pen.line([(FINE * a, FINE * b) for a, b in (place(*q) for q in curve)], fill=colour, width=width * FINE)
+        pen.line([(FINE * a, FINE * b) for a, b in (place(*q) for q in curve)], fill=colour, width=3 * FINE)
     for i, (x, y) in enumerate(points):
         a, b = (FINE * q for q in place(x, y))
         if bars:
@@ -127,7 +127,8 @@ class Command(unittest.TestCase):
     def test_a_curve_of_their_ink_that_nobody_asked_for_does_not_draw_markers_over(self):
         way = [(0.1 * i, 0.3 + 0.4 * math.sin(0.3 * (i - 1))) for i in range(11)]
         points = way[1:-1]
-        draw(self.at("fig.png"), points, curve=[(x, y + 0.022) for x, y in way])  # over their upper edges
+        curve = [(x, y + 0.022 * (-1)**i) for i, (x, y) in enumerate(way)]  # over their upper or lower edges
+        draw(self.at("fig.png"), points, curve=curve)
         self.assertEqual(self.run_it('image = "fig.png"\n' + X + Y + SERIES).returncode, 0)
         rows = self.rows()[1:]
         self.assertEqual(len(rows), len(points))
