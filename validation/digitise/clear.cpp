@@ -65,10 +65,47 @@ bool is_inside(const cv::Range& rule, int rows) {
   return rule.start >= edge && rule.end <= rows - edge;
 }
 
-/// Each rule with its paler edge rows.
+/// Where data lies over a rule: ink on both sides, what is there is wider than the rule; or a
+/// stretch of ink much longer than the dots or dashes of a broken one.
+std::vector<bool> data_over(const cv::Mat& coverage, const cv::Range& rule) {
+  const auto inked = [&](int y, int x) {
+    return y >= 0 && y < coverage.rows && coverage.at<float>(y, x) > 0.3F;
+  };
+  std::vector<bool> data(coverage.cols);
+  std::vector<cv::Range> dashes;
+  for (int x = 0; x < coverage.cols; ++x) {
+    data[x] = inked(rule.start - 1, x) && inked(rule.end, x);
+    bool any = false;
+    for (int y = rule.start; y < rule.end; ++y) any = any || inked(y, x);
+    if (!any) continue;
+    if (dashes.empty() || dashes.back().end < x)
+      dashes.emplace_back(x, x + 1);
+    else
+      ++dashes.back().end;
+  }
+  if (dashes.size() < 8) return data;
+  std::vector<int> lengths;
+  for (const auto& dash : dashes) lengths.push_back(dash.size());
+  std::sort(lengths.begin(), lengths.end());
+  const int longest = 2 * lengths[lengths.size() * 3 / 4] + 4;
+  for (const auto& dash : dashes)
+    if (dash.size() > longest) std::fill(data.begin() + dash.start, data.begin() + dash.end, true);
+  return data;
+}
+
+/// Each rule with its paler edge rows, but for the data over it.
 void clear_rows(cv::Mat coverage, cv::Mat unknown, const std::vector<cv::Range>& ruled) {
-  for (const auto& rule : ruled)
+  for (const auto& rule : ruled) {
+    const cv::Mat as_it_was = coverage.rowRange(rule).clone(),
+                  known_before = unknown.rowRange(rule).clone();
+    const auto data = data_over(coverage, rule);
     for (int y = rule.start; y < rule.end; ++y) clear_row(coverage.row(y), unknown.row(y));
+    for (int x = 0; x < coverage.cols; ++x) {
+      if (!data[x]) continue;
+      as_it_was.col(x).copyTo(coverage.rowRange(rule).col(x));
+      known_before.col(x).copyTo(unknown.rowRange(rule).col(x));
+    }
+  }
 }
 
 /// Whether there is paper round a stroke that sticks in from the left edge of the map: it is a
