@@ -21,7 +21,7 @@ ErrorBar find_error_bar(const InkMap& map, const Template& marker, cv::Point2d a
                         int thickness = 0);
 
 /// The bars of a series' markers. Where a third of them or more have one, its thickness tells the
-/// cap of a bar so short that little else of it is seen.
+/// cap of a bar so short that little else of it is seen, and a bar without one that is hardly seen.
 std::vector<ErrorBar> find_error_bars(const InkMap& map, const Template& marker,
                                       const std::vector<cv::Point2d>& at, bool with_line);
 

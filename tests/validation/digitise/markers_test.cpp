@@ -499,6 +499,22 @@ TEST(ErrorBars, OnABarIsAMarkerOnlyByInkThatIsNotTheBars) {
   EXPECT_NEAR(markers.back().fit.origin.y, at[4].y + below.y, 1);
 }
 
+TEST(ErrorBars, ABarThatHardlyLeavesItsMarkerIsReadWhereOthersShowTheirs) {
+  auto map = empty();
+  const Shape diamond{Outline::diamond, Fill::filled};
+  const auto at = places(6);
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    add(map, marker_at(diamond, 32, 1, at[i]));
+    const double length = i == 2 ? 20.5 : 40;
+    add(map, stroke_from(at[i] - cv::Point2d(0, length), at[i] + cv::Point2d(0, length), 3));
+  }
+  const auto marker = make_template(draw_shape(diamond, {32, 32}, 1, {36, 36}), diamond);
+  ASSERT_TRUE(std::isnan(find_error_bar(map, marker, at[2], false).upper));
+  const auto bars = find_error_bars(map, marker, at, false);
+  EXPECT_NEAR(bars[2].upper, at[2].y - 20.5, 0.5);
+  EXPECT_NEAR(bars[2].lower, at[2].y + 20.5, 0.5);
+}
+
 TEST(ErrorBars, CapsOfOneSeriesAreNoMarkersOfAnother) {
   auto map = empty();
   const Shape diamond{Outline::diamond, Fill::filled},
