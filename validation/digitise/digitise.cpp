@@ -16,6 +16,7 @@
 #include "validation/digitise/error_bars.hpp"
 #include "validation/digitise/legend.hpp"
 #include "validation/digitise/lines.hpp"
+#include "validation/digitise/lines_among_markers.hpp"
 #include "validation/digitise/markers.hpp"
 #include "validation/digitise/overlay.hpp"
 #include "validation/digitise/page.hpp"
@@ -289,9 +290,12 @@ class Digitiser {
     if (templates.size() < learned.size()) return;
     auto markers = find_markers(map, templates);
     drop_stretches(map, line_width(map.coverage), templates, markers);
-    const auto lines = templates.empty() ? std::vector<TracedLine>{}
-                                         : lines_beside(map, templates, markers, members);
-    const bool with_line = has_line(members) || !lines.empty();
+    const auto asked =
+        static_cast<std::size_t>(std::count_if(members.begin(), members.end(), [&](std::size_t i) {
+          return figure_.series[i].kind == Kind::line;
+        }));
+    const auto lines = lines_among(map, templates, markers, asked);
+    const bool with_line = asked > 0 || !lines.empty();
     markers = beside_line(map, lines, templates, markers);
     std::vector<bool> with_bars;
     for (const auto i : with_markers)
@@ -485,7 +489,7 @@ class Digitiser {
 
   void store_line(const InkMap& map, const std::vector<LinePoint>& through,
                   const SeriesSpec& series, FoundSeries& found) {
-    auto line = trace(map, through, series.points);
+    auto line = trace_beside(map, through, series.points);
     if (line.points.size() < 2) return miss(series, "a line");
     if (line.explained < 0.7)
       found_.doubts.push_back(
@@ -500,77 +504,6 @@ class Digitiser {
     complete(line.points, colours_.lossy);
     for (const auto& one : line.points)
       found.points.push_back(to_point(one.at + cv::Point2d(area_.tl()), one.u, one.u));
-  }
-
-  /// The lines of an ink with markers: as many as it has series of lines; where it has none, those
-  /// that are there though nobody asked for them, one a series of markers.
-  std::vector<TracedLine> lines_beside(const InkMap& map, const std::vector<Template>& templates,
-                                       const std::vector<std::vector<Marker>>& markers,
-                                       const std::vector<std::size_t>& members) const {
-    const auto asked =
-        static_cast<std::size_t>(std::count_if(members.begin(), members.end(), [&](std::size_t i) {
-          return figure_.series[i].kind == Kind::line;
-        }));
-    const auto most = asked > 0 ? asked : templates.size();
-    const auto through = all_points(markers);
-    auto rest = covered(map, templates, markers, asked > 0);
-    std::vector<TracedLine> lines;
-    while (lines.size() < most) {
-      const auto line = trace(rest, through, 400);
-      const double share = 0.6 / static_cast<double>(most - lines.size());
-      if (line.points.empty() || (asked == 0 && (line.explained < share || !spans(line, through))))
-        break;
-      lines.push_back(line);
-      rest = without_line(rest, line);
-    }
-    return lines;
-  }
-
-  /// Whether a line reaches over most of the way from the first marker to the last.
-  static bool spans(const TracedLine& line, const std::vector<LinePoint>& markers) {
-    const auto ends = [](const std::vector<LinePoint>& points) {
-      const auto [first, last] =
-          std::minmax_element(points.begin(), points.end(),
-                              [](const auto& a, const auto& b) { return a.at.x < b.at.x; });
-      return std::pair(first->at.x, last->at.x);
-    };
-    const auto [from, to] = ends(line.points);
-    const auto [first, last] = ends(markers);
-    return std::min(to, last) - std::max(from, first) > 0.6 * (last - first);
-  }
-
-  static TracedLine trace(const InkMap& map, const std::vector<LinePoint>& through, int points) {
-    InkMap wider = map;
-    cv::dilate(map.unknown, wider.unknown, cv::Mat::ones(3, 3, CV_8U));
-    return trace_line(wider, through, points);
-  }
-
-  /// A line goes through the markers of its ink.
-  static std::vector<LinePoint> all_points(const std::vector<std::vector<Marker>>& markers) {
-    std::vector<LinePoint> points;
-    for (const auto& series : markers)
-      for (const auto& one : series) points.push_back({one.at, std::max(one.u[0], one.u[1])});
-    return points;
-  }
-
-  /// Under a marker and its bar nothing is known of the line.
-  static InkMap covered(const InkMap& map, const std::vector<Template>& templates,
-                        const std::vector<std::vector<Marker>>& markers, bool with_line) {
-    InkMap rest{map.coverage, map.unknown.clone()};
-    for (std::size_t t = 0; t < templates.size(); ++t)
-      for (const auto& one : markers[t]) {
-        const cv::Size size = templates[t].inside.size();
-        const cv::Rect wanted(cvRound(one.fit.origin.x - size.width / 2.0),
-                              cvRound(one.fit.origin.y - size.height / 2.0), size.width,
-                              size.height);
-        const cv::Rect there = wanted & cv::Rect({0, 0}, rest.unknown.size());
-        if (!there.empty())
-          rest.unknown(there).setTo(255, templates[t].inside(there - wanted.tl()));
-      }
-    for (std::size_t t = 0; t < templates.size(); ++t)
-      for (const auto& one : markers[t])
-        cover(rest, find_error_bar(map, templates[t], one.at, with_line), one.at);
-    return rest;
   }
 
   const Figure& figure_;

@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "tests/validation/digitise/drawn_stroke.hpp"
+#include "validation/digitise/lines_among_markers.hpp"
 
 namespace bedscope::digitise {
 namespace {
@@ -90,6 +91,36 @@ TEST(BesideLine, WhatTheLineCoversStaysWhereItWas) {
   const auto again = beside_line(made.map, {made.line}, {made.marker}, {{placed(made, at)}});
   ASSERT_EQ(again[0].size(), 1U);
   EXPECT_EQ(again[0][0].at, at);
+}
+
+TEST(LinesAmong, MarkersThatNobodyAskedForAndNoBars) {
+  const Shape box{Outline::square, Fill::filled}, disc{Outline::circle, Fill::filled};
+  std::vector<cv::Point2d> boxes, discs;
+  for (const double x : {60.2, 130.6, 200.4, 270.1, 340.7}) {
+    boxes.emplace_back(x, 162.3 - 0.2 * x);
+    discs.emplace_back(x + 20, 50 - 0.05 * x);
+  }
+  auto made = scene(box, 13, 1, 3, boxes);
+  const auto other = scene(disc, 15, 1, 3, {});
+  for (const auto at : discs)
+    made.map.coverage = cv::max(made.map.coverage, drawn(disc, 15, 1, at));
+  std::vector<std::vector<Marker>> found(2);
+  for (const auto at : boxes) found[0].push_back(placed(made, at));
+  for (const auto at : discs)
+    found[1].push_back(marker_at(other.marker, fit(other.marker, made.map, at)));
+  const std::vector<Template> both{made.marker, other.marker};
+  EXPECT_EQ(lines_among(made.map, both, found, 0).size(), 1U);
+  auto two = made.map;
+  two.coverage = cv::max(two.coverage, drawn_stroke({80.2, 47.0}, {360.7, 33.0}, 3, plot));
+  EXPECT_EQ(lines_among(two, both, found, 0).size(), 2U);
+  // What stands beside the markers, as bars of another series, is no line.
+  InkMap bars{cv::Mat::zeros(plot, CV_32F), made.map.unknown};
+  for (const auto at : boxes) {
+    bars.coverage = cv::max(bars.coverage, drawn(box, 13, 1, at));
+    bars.coverage = cv::max(
+        bars.coverage, drawn_stroke(at + cv::Point2d(8, -40), at + cv::Point2d(8, 40), 3, plot));
+  }
+  EXPECT_TRUE(lines_among(bars, {made.marker}, {found[0]}, 0).empty());
 }
 
 TEST(Stretches, LieAsWellFartherAlongWhereOtherCurvesHideTheirSides) {
