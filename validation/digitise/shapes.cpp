@@ -244,7 +244,7 @@ cv::Mat draw_shape(const Shape& shape, cv::Size2d box, double stroke, cv::Size s
   return coverage;
 }
 
-Reference reference_of(const Shape& shape, cv::Size2d box, double stroke) {
+Reference reference_of(const Shape& shape, cv::Size2d box, double stroke, double known_to) {
   const auto outline = shape.outline;
   if (!is_triangle(outline)) return {{0, 0}, 0};
   const bool standing = outline == Outline::triangle || outline == Outline::triangle_down;
@@ -268,7 +268,7 @@ Reference reference_of(const Shape& shape, cv::Size2d box, double stroke) {
   const double lacks = width - height, equilateral_lacks = (1 - std::sqrt(3.0) / 2) * width;
   towards_base += std::clamp(lacks, 0.0, 1.0) / 2 / height;
   const double either = (1 + equilateral_lacks) / 2, apart = equilateral_lacks - 1;
-  const double odds = std::exp((lacks - either) * apart / (0.4 * 0.4)) / 3;
+  const double odds = std::exp((lacks - either) * apart / (known_to * known_to)) / 3;
   const double share = std::isinf(odds) ? 1 : odds / (1 + odds);
   const double between = 1.0 / 6 - towards_base;
   reference.uncertain = std::sqrt((1 - share) * reference.uncertain * reference.uncertain +

@@ -67,11 +67,12 @@ cv::Mat draw_shape(const Shape& shape, cv::Size2d box, double stroke, cv::Size s
 /// a twelfth of the size and one of its own colour of a quarter (matplotlib's and gnuplot's have a
 /// sixth by default, small markers and those of thick lines more). Those that lack a pixel of their
 /// height lack it at the base (gnuplot); equilateral ones stand with their centre of mass on the
-/// point. Where the box does not tell these the point is between, and that uncertain.
+/// point. Where the box does not tell these the point is between, and that uncertain: the
+/// difference of its sides is `known_to` so many pixels.
 struct Reference {
   cv::Point2d at;
   double uncertain = 0;
 };
-Reference reference_of(const Shape& shape, cv::Size2d box, double stroke);
+Reference reference_of(const Shape& shape, cv::Size2d box, double stroke, double known_to = 0.4);
 
 }  // namespace bedscope::digitise

@@ -305,6 +305,23 @@ TEST(Shapes, ATriangleOfGnuplotLacksAPixelAtItsBaseAndAnEquilateralOneAnEighth) 
   EXPECT_GT(2 * known_to, std::max(12.6 / 6 - small, small - mitre - 0.5));
 }
 
+TEST(Template, DashesLeftAtATrianglesSidesDoNotMakeItFlat) {
+  const Shape shape{Outline::triangle, Fill::filled};
+  const cv::Mat bare = draw_shape(shape, {20, 20}, 1, {34, 28});
+  const auto clean = make_template(bare, shape);
+  for (int top = 9; top < 19; ++top)
+    for (int beyond = 1; beyond < 5; ++beyond) {
+      cv::Mat dashed = bare.clone();
+      const int half = (top + 2 - 4) / 2;  // of the triangle's width there
+      dashed(cv::Rect(17, top, half + beyond, 4)).setTo(1);
+      dashed(cv::Rect(17 - half - beyond, top + 1, half + beyond, 4)).setTo(1);
+      const auto marker = make_template(dashed, shape);
+      EXPECT_LT(std::abs(marker.reference.y - clean.reference.y),
+                std::max(0.5, 2.5 * marker.reference_u[1]))
+          << top << " " << beyond;
+    }
+}
+
 TEST(Triangle, IsWhereItsSidesMeetThoughABarHidesItsTip) {
   const cv::Size size(60, 70);
   const cv::Point2d off(0.3, 8.4);
