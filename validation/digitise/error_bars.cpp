@@ -118,7 +118,8 @@ End end_of(const Looker& look, int x, int start, int step, double marker_width, 
       mass += across;
       moment += across * (row + 0.5);
     }
-    if (mass > 0) return {moment / mass, widest / 2.0, cap, thin};
+    // Where a line runs along the cap, that is not all the cap's.
+    if (mass > 0) return {moment / mass, std::min(widest / 2.0, 1.5 * marker_width), cap, thin};
   }
   // A marker's own shoulder is no bar, nor is a steep line; a line does not end in paper.
   if (lean_of(centres) > (with_line ? 0.6 : 1.2)) return none;

@@ -399,9 +399,11 @@ Template make_template(const cv::Mat& ink, const Shape& shape) {
     // Ends of a line that are left on the sides move these apart.
     auto box = box_by_sides(standing, drawn).value_or(drawn);
     if (!is_proportioned(Outline::triangle, box.size())) box = drawn;
-    const double apart = std::abs((box.width - box.height) - (drawn.width - drawn.height));
-    const auto rule = reference_of({Outline::triangle, shape.fill}, box.size(),
-                                   stroke_width(marker.ink), std::max(0.4, apart));
+    const double lacks = box.width - box.height, drawn_lacks = drawn.width - drawn.height;
+    const bool flat = lacks > 0.07 * box.width;
+    const auto rule =
+        reference_of({Outline::triangle, shape.fill}, box.size(), stroke_width(marker.ink),
+                     flat ? std::max(0.4, lacks - drawn_lacks) : 0.4);
     const cv::Point2d standing_middle(standing.cols / 2.0, standing.rows / 2.0);
     const cv::Point2d at(box.x + box.width / 2 - standing_middle.x,
                          box.y + box.height * (0.5 + rule.at.y) - standing_middle.y);

@@ -515,6 +515,20 @@ TEST(ErrorBars, ABarThatHardlyLeavesItsMarkerIsReadWhereOthersShowTheirs) {
   EXPECT_NEAR(bars[2].lower, at[2].y + 20.5, 0.5);
 }
 
+TEST(ErrorBars, ALineAlongACapIsNotHiddenWithIt) {
+  auto map = empty();
+  const Shape square{Outline::square, Fill::filled};
+  const cv::Point2d at(200.4, 120.3);
+  add(map, marker_at(square, 12, 1, at));
+  add_bar(map, at, 30, 2, 6);
+  add(map, stroke_from({60, 150.3}, {380, 150.3}, 2));  // a level curve through the lower one
+  const auto marker = make_template(draw_shape(square, {12, 12}, 1, {16, 16}), square);
+  const auto bar = find_error_bar(map, marker, at, true);
+  ASSERT_FALSE(std::isnan(bar.lower));
+  cover(map, bar, at);
+  EXPECT_LT(cv::countNonZero(map.unknown.row(150)), 4 * 12);
+}
+
 TEST(ErrorBars, CapsOfOneSeriesAreNoMarkersOfAnother) {
   auto map = empty();
   const Shape diamond{Outline::diamond, Fill::filled},
