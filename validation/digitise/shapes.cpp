@@ -263,8 +263,8 @@ Reference reference_of(const Shape& shape, cv::Size2d box, double stroke, double
     towards_base = (least + most) / 2;
     reference.uncertain = (most - least) / std::sqrt(12.0);
   }
-  // Those of gnuplot lack the pixel at their base, equilateral ones, one in four, an eighth of
-  // their height; measured to 0.4 pixels, small ones may be either.
+  // Those of gnuplot lack the pixel at their base, equilateral ones, taken for one in four, an
+  // eighth of their height; small ones may be either.
   const double lacks = width - height, equilateral_lacks = (1 - std::sqrt(3.0) / 2) * width;
   towards_base += std::clamp(lacks, 0.0, 1.0) / 2 / height;
   const double either = (1 + equilateral_lacks) / 2, apart = equilateral_lacks - 1;
