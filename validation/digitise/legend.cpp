@@ -54,15 +54,16 @@ bool alike(const cv::Rect& a, const cv::Rect& b) {
          std::abs(a.height - b.height) <= std::max(1.0, 0.08 * a.height);
 }
 
-/// Whether a glyph's like is in four or more other columns, as a series' markers are. Letters that
-/// the rows of a legend have in common stand below one another.
-bool recurs(const cv::Rect& glyph, const std::vector<cv::Rect>& glyphs) {
+/// In how many other columns there is a glyph's like. Letters that the rows of a legend have in
+/// common stand below one another; a series' markers do not.
+std::ptrdiff_t recurrences(const cv::Rect& glyph, const std::vector<cv::Rect>& glyphs) {
   return std::count_if(glyphs.begin(), glyphs.end(), [&](const cv::Rect& other) {
-           return std::abs(other.x - glyph.x) > glyph.width / 2 && alike(glyph, other);
-         }) >= 4;
+    return std::abs(other.x - glyph.x) > glyph.width / 2 && alike(glyph, other);
+  });
 }
 
-/// Letters next to one another, unlike in size: markers in a row are alike, or each is like others.
+/// Letters next to one another, unlike in size: markers in a row are alike, or each is like others;
+/// with dashes at some of them these are wider than letters.
 std::vector<Word> words_of(const std::vector<cv::Rect>& glyphs) {
   std::vector<Word> words;
   for (const auto& glyph : glyphs) {
@@ -85,9 +86,18 @@ std::vector<Word> words_of(const std::vector<cv::Rect>& glyphs) {
     const auto every = [&](const auto& holds) {
       return std::all_of(word.glyphs.begin(), word.glyphs.end(), holds);
     };
+    const auto any = [&](const auto& holds) {
+      return std::any_of(word.glyphs.begin(), word.glyphs.end(), holds);
+    };
+    const auto is_wide = [&](const cv::Rect& glyph) {
+      return glyph.height > 0.6 * word.box.height && glyph.width > 1.6 * glyph.height;
+    };
     return word.glyphs.size() < 2 ||
            every([&](const cv::Rect& glyph) { return alike(word.glyphs.front(), glyph); }) ||
-           every([&](const cv::Rect& glyph) { return recurs(glyph, glyphs); });
+           every([&](const cv::Rect& glyph) { return recurrences(glyph, glyphs) >= 4; }) ||
+           (any(is_wide) && any([&](const cv::Rect& glyph) {
+              return !is_wide(glyph) && recurrences(glyph, glyphs) >= 2;
+            }));
   });
   return words;
 }

@@ -570,6 +570,18 @@ TEST(Legend, MarkersOfTwoSeriesSideBySideAreNoWord) {
   EXPECT_EQ(rows(), 0U);
 }
 
+TEST(Legend, RingsOnADashedLineAreNoWord) {
+  cv::Mat ink = cv::Mat::zeros(400, 500, CV_32F);
+  const auto ring = [&](int x, int y) { cv::circle(ink, {x, y}, 10, cv::Scalar(1), 2); };
+  for (const int x : {190, 241}) ring(x, 100);
+  for (const int x : {120, 206}) ink(cv::Rect(x, 97, 32, 6)).setTo(1);  // the second meets a ring
+  const auto rows = [&] { return find_legend_rows(ink, ink, {0, 0, 500, 400}).size(); };
+  EXPECT_GT(rows(), 0U);
+  ring(300, 200);
+  ring(350, 240);
+  EXPECT_EQ(rows(), 0U);
+}
+
 TEST(Legend, FilledMarkersOnALevelDashedLineAreNoWord) {
   cv::Mat ink = cv::Mat::zeros(400, 500, CV_32F);
   const auto disc = [&](int x, int y) { cv::circle(ink, {x, y}, 9, cv::Scalar(1), cv::FILLED); };
