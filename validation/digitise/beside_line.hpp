@@ -17,7 +17,8 @@ void drop_stretches(const InkMap& map, double stroke, const std::vector<Template
 /// `found` once more with the ink of their lines hidden: a line that touches a filled marker would
 /// draw it over, and one thicker than a marker's stroke hides that. What lies well beside a line
 /// only is added; a marker of which a line covers most stays where it was.
-std::vector<std::vector<Marker>> beside_line(const InkMap& map, const std::vector<TracedLine>& lines,
+std::vector<std::vector<Marker>> beside_line(const InkMap& map,
+                                             const std::vector<TracedLine>& lines,
                                              const std::vector<Template>& templates,
                                              const std::vector<std::vector<Marker>>& found);
 

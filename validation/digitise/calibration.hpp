@@ -29,14 +29,15 @@ struct Calibration {
 
 /// The places of an axis' points at `along` [px]. Whole pixels were picked by eye, which may take a
 /// line's neighbouring pixel for its middle: uniform within one pixel to each side. Where one of
-/// the lines across the axis (frame, grid, ticks; `lines` are their middles) is within one and a half,
-/// and no other is near, that line was meant, and programs draw it on whole pixels: uniform within
-/// half a pixel. A line on the middle of a pixel (of an odd thickness) is drawn there by gnuplot
-/// because that is its place; matplotlib rounds to the edge between two pixels and then draws half
-/// a pixel to the right and below of that, all lines of a plot alike. So it is taken for half of
-/// that half off, give or take the other half, an error that such places share; so are those of a
-/// `turned` page, where it cannot be told. Fractions were measured, to a tenth; one within three
-/// tenths of a line's middle is that line's. `pixel` is the size of the picture's in the page's.
+/// the lines across the axis (frame, grid, ticks; `lines` are their middles) is within one and a
+/// half, and no other is near, that line was meant, and programs draw it on whole pixels: uniform
+/// within half a pixel. A line on the middle of a pixel (of an odd thickness) is drawn there by
+/// gnuplot because that is its place; matplotlib rounds to the edge between two pixels and then
+/// draws half a pixel to the right and below of that, all lines of a plot alike. So it is taken for
+/// half of that half off, give or take the other half, an error that such places share; so are
+/// those of a `turned` page, where it cannot be told. Fractions were measured, to a tenth; one
+/// within three tenths of a line's middle is that line's. `pixel` is the size of the picture's in
+/// the page's.
 std::vector<Place> places_of(const AxisSpec& axis, const std::vector<double>& along,
                              const std::vector<double>& lines, double pixel, bool turned);
 

@@ -315,7 +315,8 @@ std::pair<Shape, double> recognise(const cv::Mat& ink, const std::vector<Shape>&
   double most = -1;
   const cv::Size2d drawn(box.width * scale, box.height * scale);
   for (const auto& shape : among)
-    for (const double share : {0.07, 0.12, 0.18, 0.26}) {
+    for (const double share : {0.07, 0.12, 0.18, 0.26, 0.33}) {
+      if (share > 0.3 && share > thickest_stroke(shape)) break;
       const double stroke = std::max(0.7, share * std::min(drawn.width, drawn.height));
       const cv::Mat candidate = draw_shape(shape, drawn, stroke, size);
       for (const double blur : {0.7, 1.4}) {

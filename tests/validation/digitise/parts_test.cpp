@@ -265,6 +265,15 @@ TEST(Template, FitFindsAShiftedMarkerBelowATenthOfAPixel) {
   }
 }
 
+TEST(Template, AThickRingIsToldFromADisc) {
+  const Shape ring{Outline::circle, Fill::open}, disc{Outline::circle, Fill::filled};
+  for (const auto& shape : {ring, disc}) {
+    cv::Mat ink = draw_shape(shape, {26, 26}, 9.4, {32, 32});  // its hole a quarter of its width
+    cv::GaussianBlur(ink, ink, {}, 1.2);
+    EXPECT_EQ(recognise(ink, {ring, disc}).first.fill, shape.fill);
+  }
+}
+
 TEST(Template, ReferenceOfATriangleIsTheMiddleOfItsBox) {
   const Shape shape{Outline::triangle, Fill::filled};
   const auto marker = make_template(draw_shape(shape, {24, 24}, 1, {30, 30}), shape);
