@@ -166,15 +166,6 @@ int pieces_within(const cv::Mat& ink, const cv::Rect& box) {
   return pieces;
 }
 
-/// A marker is a box too, an empty one. None is as large as an inset, whose curves may touch it.
-bool holds_plot_or_text(const cv::Mat& ink, const cv::Rect& box, const cv::Rect& area) {
-  if (std::min(box.width, box.height) < std::min(area.width, area.height) / 6)
-    return pieces_within(ink, box) >= 3;
-  const cv::Rect middle(box.x + box.width / 4, box.y + box.height / 4, box.width / 2,
-                        box.height / 2);
-  return cv::countNonZero(ink(middle) > 0.3F) > 0;
-}
-
 /// Whether the sides of a box cut through dark ink: markers and bars that lie beside one another.
 bool cuts(const cv::Mat& text, const cv::Rect& box) {
   const int blur = 2;
@@ -225,7 +216,8 @@ std::vector<cv::Rect> find_boxes(const Rules& rules, const cv::Mat& ink, const c
         cv::Rect box(cvFloor(first.from - 3), cvFloor(first.at - 3), cvCeil(first.length() + 6),
                      cvCeil(apart + 6));
         if (is_upright) box = cv::Rect(box.y, box.x, box.height, box.width);
-        if ((box & area).area() > 0.9 * box.area() && holds_plot_or_text(ink, box & area, area))
+        // A marker is a box too, an empty one.
+        if ((box & area).area() > 0.9 * box.area() && pieces_within(ink, box & area) >= 3)
           boxes.push_back(box & area);
       }
   };

@@ -82,20 +82,6 @@ TEST(Legend, AFrameMayTouchAGridLineAndAnOpenSquareIsNone) {
   }
 }
 
-TEST(Legend, AnInsetIsABoxWithACurve) {
-  cv::Mat ink = cv::Mat::zeros(rows, columns, CV_32F);
-  cv::rectangle(ink, cv::Rect(230, 40, 130, 100), cv::Scalar(1), 3);
-  const cv::Rect area({0, 0}, ink.size());
-  EXPECT_TRUE(find_boxes(find_rules(ink, 12, 8), ink, area).empty());
-  cv::line(ink, {230, 120}, {360, 60}, cv::Scalar(1), 2);
-  const auto boxes = find_boxes(find_rules(ink, 12, 8), ink, area);
-  ASSERT_FALSE(boxes.empty());
-  for (const auto& box : boxes) {
-    EXPECT_NEAR(box.x, 230, 8);
-    EXPECT_NEAR(box.height, 100, 14);
-  }
-}
-
 TEST(Colour, TwoGuessesOfOneInkAreOneThoughItsEdgesArePaler) {
   // Steps along the edge of a turned picture: 0.85 of the way from paper to ink.
   const cv::Vec3b paper(238, 238, 238), ink(80, 78, 196), edge(104, 102, 202);
