@@ -123,9 +123,11 @@ End end_of(const Looker& look, int x, int start, int step, double marker_width, 
   }
   // A marker's own shoulder is no bar, nor is a steep line; a line does not end in paper.
   if (lean_of(centres) > (with_line ? 0.6 : 1.2)) return none;
-  if (with_line && (length < 6 || look.breadth(last + 2 * step, x) > 0)) return none;
+  if (with_line && look.breadth(last + 2 * step, x) > 0) return none;
   // Where other markers show bars, what little is seen of a short one is no shoulder.
-  if (length < (thickness > 0 ? 2 : 0.12 * marker_width + 2)) return none;
+  const double shortest =
+      with_line ? std::max(6.0, 0.12 * marker_width + 2) : 0.12 * marker_width + 2;
+  if (length < (thickness > 0 ? 2 : shortest)) return none;
   const double at_last = std::min(1.0, look.on_bar(last, x)),
                beyond = std::min(1.0, look.on_bar(last + step, x));
   const double edge = at_last < 0.9 ? at_last - 1 : beyond;  // how far the ink reaches past the row

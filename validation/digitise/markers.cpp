@@ -48,22 +48,6 @@ struct Candidate {
 
 double worth(const Fit& fit) { return fit.score * std::sqrt(fit.known); }
 
-/// The hole of an open marker's template; its dilated inside reaches a pixel beyond the outline.
-cv::Mat hole_of(const Template& marker) {
-  cv::Mat hole;
-  cv::erode(marker.inside, hole, cv::Mat::ones(5, 5, CV_8U));
-  hole.setTo(0, marker.ink > 0.3F);
-  return hole;
-}
-
-/// Whether the hole of an open marker is full: one of a filled series of its outline lies there. A
-/// line, a bar and blur fill it by half at most.
-bool is_full(const InkMap& map, const Template& open, const cv::Mat& hole, cv::Point2d origin) {
-  if (cv::countNonZero(hole) < 3) return false;
-  const cv::Mat seen = window(map.coverage, origin, open.ink.size(), 0);
-  return cv::mean(seen, hole)[0] > (1 + cv::mean(open.ink, hole)[0]) / 2;
-}
-
 /// The good fits near `places` of template `which`.
 void add_candidates(std::vector<Candidate>& candidates, const InkMap& map, const Template& marker,
                     std::size_t which, const std::vector<cv::Point2d>& places) {
@@ -135,20 +119,8 @@ bool is_marker(const Fit& fit) {
 std::vector<std::vector<Marker>> find_markers(const InkMap& map,
                                               const std::vector<Template>& templates) {
   std::vector<Candidate> candidates;
-  for (std::size_t t = 0; t < templates.size(); ++t) {
-    const auto& open = templates[t];
-    add_candidates(candidates, map, open, t, guesses(map, open));
-    const bool has_filled_rival =
-        open.shape.fill == Fill::open &&
-        std::any_of(templates.begin(), templates.end(), [&](const Template& other) {
-          return other.shape.fill == Fill::filled && other.shape.outline == open.shape.outline;
-        });
-    if (!has_filled_rival) continue;
-    const cv::Mat hole = hole_of(open);
-    std::erase_if(candidates, [&](const Candidate& one) {
-      return one.which == t && is_full(map, open, hole, one.fit.origin);
-    });
-  }
+  for (std::size_t t = 0; t < templates.size(); ++t)
+    add_candidates(candidates, map, templates[t], t, guesses(map, templates[t]));
   return best_first(map, templates, std::move(candidates));
 }
 
