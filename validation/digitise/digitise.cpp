@@ -290,10 +290,7 @@ class Digitiser {
     if (templates.size() < learned.size()) return;
     auto markers = find_markers(map, templates);
     drop_stretches(map, line_width(map.coverage), templates, markers);
-    const auto asked =
-        static_cast<std::size_t>(std::count_if(members.begin(), members.end(), [&](std::size_t i) {
-          return figure_.series[i].kind == Kind::line;
-        }));
+    const auto asked = lines_asked(members);
     const auto lines = lines_among(map, templates, markers, asked);
     const bool with_line = asked > 0 || !lines.empty();
     markers = beside_line(map, lines, templates, markers);
@@ -387,9 +384,10 @@ class Digitiser {
     return places.size() > 3 ? text + " ..." : text;
   }
 
-  bool has_line(const std::vector<std::size_t>& members) const {
-    return std::any_of(members.begin(), members.end(),
-                       [&](std::size_t i) { return figure_.series[i].kind == Kind::line; });
+  std::size_t lines_asked(const std::vector<std::size_t>& members) const {
+    return static_cast<std::size_t>(
+        std::count_if(members.begin(), members.end(),
+                      [&](std::size_t i) { return figure_.series[i].kind == Kind::line; }));
   }
 
   /// The shapes of an ink: those that are named where each of several series names its own.
@@ -409,7 +407,7 @@ class Digitiser {
     MarkerQuery query;
     query.shape = series.shape;
     query.among = shapes_among(members_.at(ink));
-    query.with_line = has_line(members_.at(ink));
+    query.with_line = lines_asked(members_.at(ink)) > 0;
     for (const auto i : members_.at(ink)) {
       const auto& other = figure_.series[i];
       if (other.kind != Kind::markers || !other.shape || &other == &series) continue;
